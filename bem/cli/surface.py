@@ -115,7 +115,13 @@ def read(
 
 
 def describe(
-    file: FileArgument,
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="FILE...",
+            help="One file as `read` takes it, or several measurements of one surface: their means and scatter.",
+        ),
+    ],
     detrend: DetrendOption = None,
     fill: FillOption = True,
     channel: ChannelOption = None,
@@ -124,32 +130,60 @@ def describe(
     despike: SpikesOption = None,
     level_lines: LinesOption = False,
     json: Annotated[bool, typer.Option("--json", help="As JSON, in SI units.")] = False,
+    figure: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="OUT",
+            help="Draw, as .png, .pdf or .svg: one surface as `plot` does, of several the averaged spectrum.",
+        ),
+    ] = None,
 ) -> None:
-    """Print height, slope and correlation of a surface."""
-    surface = _read(file, detrend, fill, channel, spacing, height_unit, despike, level_lines)
-    if json:
-        import dataclasses
-        import json as writer
-        import math
+    """Print height, slope and correlation of a surface; of several measurements their means and scatter.
 
-        from bem.surfaces import describe_asperities, describe_surface, material_ratio
-        from bem.surfaces.self_affine import self_affine_fit_of_map
+    \b
+    Examples:
+      bem surface describe disk.al3d
+      bem surface describe spot1.al3d spot2.al3d spot3.al3d --figure spectrum.png
+    """
+    from bem.cli._quantity import new_file
+    from bem.cli._terminal import print_written
 
-        described = describe_surface(surface.heights, surface.spacing, periodic=_periodic(surface))
-        values = dataclasses.asdict(described)
-        curve = material_ratio(surface.heights)
-        values |= {name: getattr(curve, name) for name in ("Sk", "Spk", "Svk", "Smr1", "Smr2")}
-        fit = self_affine_fit_of_map(surface.heights, surface.spacing, periodic=_periodic(surface))
-        if fit is not None:
-            values |= {f"spectrum_{name}": value for name, value in dataclasses.asdict(fit).items()}
-        if min(surface.shape) >= 3:
-            asperities = describe_asperities(surface, periodic=_periodic(surface))
-            values |= {f"asperity_{name}": value for name, value in dataclasses.asdict(asperities).items()}
-        figures = {k: None if math.isnan(v) else v for k, v in values.items()}
-        shape = {"file": str(file), "shape": surface.shape, "spacing": surface.spacing}
-        print(writer.dumps({**shape, **figures, "metadata": dict(surface.metadata)}, default=str, ensure_ascii=False))
+    if figure is not None:
+        new_file(figure, "--figure", (".png", ".pdf", ".svg"))
+    surfaces = [_read(file, detrend, fill, channel, spacing, height_unit, despike, level_lines) for file in files]
+    if len(files) == 1:
+        _print_json(files[0], surfaces[0]) if json else _show(surfaces[0], files[0].name)
+    else:
+        _show_measurements(files, surfaces, json=json)
+    if figure is None:
         return
-    _show(surface, file.name)
+    from bem.plots.surface import draw_measurements, draw_surface
+    from bem.surfaces.measurements import periodic_axes
+
+    if len(files) == 1:
+        draw_surface(surfaces[0], figure, periodic=periodic_axes(surfaces[0]))
+    else:
+        draw_measurements(surfaces, [file.name for file in files], figure)
+    if not json:
+        print_written(figure)
+
+
+def _print_json(file: Path, surface: Surface) -> None:
+    """Print all parameters of a surface as JSON."""
+    import json as writer
+
+    from bem.surfaces.measurements import parameters_of
+
+    shape = {"file": str(file), "shape": surface.shape, "spacing": surface.spacing}
+    found = {**shape, **{name: _finite(value) for name, value in parameters_of(surface).items()}}
+    print(writer.dumps({**found, "metadata": dict(surface.metadata)}, default=str, ensure_ascii=False))
+
+
+def _finite(value: float) -> float | None:
+    """Return a number that JSON knows."""
+    import math
+
+    return value if math.isfinite(value) else None
 
 
 def plot(
@@ -170,8 +204,9 @@ def plot(
     new_file(out, "OUT", (".png", ".pdf", ".svg"))
     surface = _read(file, detrend, fill, channel, spacing, height_unit, despike, level_lines)
     from bem.plots.surface import draw_surface
+    from bem.surfaces.measurements import periodic_axes
 
-    draw_surface(surface, out, periodic=_periodic(surface))
+    draw_surface(surface, out, periodic=periodic_axes(surface))
     print_written(out)
 
 
@@ -201,20 +236,17 @@ def _read(
     )
 
 
-def _periodic(surface: Surface) -> tuple[bool, bool]:
-    known = surface.metadata.get("periodic")
-    return (bool(known[0]), bool(known[1])) if isinstance(known, list | tuple) and len(known) == 2 else (False, False)
-
-
 def _show(surface: Surface, name: str) -> None:
     import math
 
     from bem.cli._terminal import table
     from bem.quantities import si
     from bem.surfaces import describe_surface
-    from bem.surfaces.filter import count_spikes
+    from bem.surfaces.finite_size import FEWEST_PATCHES
+    from bem.surfaces.measurements import finite_size_of, periodic_axes
 
-    d = describe_surface(surface.heights, surface.spacing, periodic=_periodic(surface))
+    d = describe_surface(surface.heights, surface.spacing, periodic=periodic_axes(surface))
+    error = finite_size_of(surface)
     told = surface.metadata.get("spacing_in_file")
 
     def metres(value: float) -> str:
@@ -227,12 +259,12 @@ def _show(surface: Surface, name: str) -> None:
         ("spacing", " x ".join(metres(s) for s in surface.spacing)),
         *([] if told is None else [("spacing in the file, not taken", " x ".join(metres(s) for s in told))]),
         ("size", " x ".join(metres(s) for s in surface.lengths)),
-        ("Sq, rms height", metres(d.Sq)),
+        ("Sq, rms height", metres(d.Sq) + (f" ± {si(error.Sq, 'm', digits=2)}" if error.Sq > 0 else "")),
         ("Sa, mean height", metres(d.Sa)),
         ("Sz, peak to valley", metres(d.Sz)),
         ("Ssk, skewness", f"{d.Ssk:.4g}"),
         ("Sku, kurtosis", f"{d.Sku:.4g}"),
-        ("Sdq, rms slope", f"{d.Sdq:.4g}"),
+        ("Sdq, rms slope", f"{d.Sdq:.4g}" + (f" ± {error.Sdq:.2g}" if error.Sdq > 0 else "")),
         ("autocorrelation length, x", metres(d.autocorrelation_length_x)),
         ("autocorrelation length, y", metres(d.autocorrelation_length_y)),
         *_functional_rows(surface),
@@ -241,16 +273,34 @@ def _show(surface: Surface, name: str) -> None:
         if surface.metadata.get(key):
             rows.append((words, str(surface.metadata[key])))
     table(("figure", "value"), rows, title=name)
+    if error.Sq > 0:
+        print(
+            f"± of Sq and Sdq: scatter of maps of this size (standard deviation), from the {error.patches:.0f} "
+            "independent patches that the map holds."
+        )
+        if error.patches < FEWEST_PATCHES:
+            print(
+                f"These are few patches (below {FEWEST_PATCHES}): lone heights or waves as long as the map decide Sq, "
+                "and a larger map may have a larger one. Remove spikes, measure a larger area, or filter waviness out."
+            )
+    _hints(surface)
+
+
+def _hints(surface: Surface, name: str = "") -> None:
+    """Print what an expert would doubt of a map; `name` : of its file, where there are several."""
+    from bem.surfaces.filter import count_spikes
+
+    of = f"{name}: " if name else ""
     filled = float(surface.metadata.get("missing_points", 0) or 0) / surface.heights.size
     if filled > 0.1:
         print(
-            f"{filled:.0%} of the points were missing and filled smoothly: the real surface is rougher. Take a part "
-            "without holes, or measure again."
+            f"{of}{filled:.0%} of the points were missing and filled smoothly: the real surface is rougher. Take a "
+            "part without holes, or measure again."
         )
     spikes = 0 if surface.metadata.get("spikes") else count_spikes(surface.heights, surface.spacing)
     if spikes:
         print(
-            f"{spikes} points stand out of their neighbourhood by more than 6 standard deviations: spikes of the "
+            f"{of}{spikes} points stand out of their neighbourhood by more than 6 standard deviations: spikes of the "
             "instrument? --despike 6 removes them."
         )
 
@@ -261,6 +311,7 @@ def _functional_rows(surface: Surface) -> list[tuple[str, str]]:
 
     from bem.quantities import si
     from bem.surfaces import describe_asperities, material_ratio
+    from bem.surfaces.measurements import periodic_axes
     from bem.surfaces.self_affine import self_affine_fit_of_map
 
     if surface.heights.size < 10 or not float(surface.heights.max()) > float(surface.heights.min()):
@@ -273,7 +324,7 @@ def _functional_rows(surface: Surface) -> list[tuple[str, str]]:
         ("Smr1, Smr2, material ratios of the core", f"{curve.Smr1:.1%}, {curve.Smr2:.1%}"),
     ]
     if min(surface.shape) >= 3:
-        asperities = describe_asperities(surface, periodic=_periodic(surface))
+        asperities = describe_asperities(surface, periodic=periodic_axes(surface))
         if math.isfinite(asperities.radius):
             rows += [
                 ("asperities per mm² (summits of cells)", f"{asperities.density * 1e-6:.4g}"),
@@ -281,7 +332,7 @@ def _functional_rows(surface: Surface) -> list[tuple[str, str]]:
                 ("asperity heights, standard deviation", si(asperities.rms_height, "m", digits=4)),
             ]
         rows.append(("bandwidth, Nayak's alpha", f"{asperities.bandwidth:.4g}"))
-    fit = self_affine_fit_of_map(surface.heights, surface.spacing, periodic=_periodic(surface))
+    fit = self_affine_fit_of_map(surface.heights, surface.spacing, periodic=periodic_axes(surface))
     if fit is not None:
         decades = f"{fit.misfit:.2f} decades off at rms"
         between = f"{si(fit.shortest_wavelength, 'm', digits=3)} to {si(fit.longest_wavelength, 'm', digits=3)}"
@@ -293,3 +344,104 @@ def _functional_rows(surface: Surface) -> list[tuple[str, str]]:
         if math.isfinite(fit.rolloff_wavelength):
             rows.append(("roll-off wavelength", si(fit.rolloff_wavelength, "m", digits=3)))
     return rows
+
+
+_LENGTH, _NUMBER, _SHARE, _PER_AREA = "length", "number", "share", "per mm²"
+_OF_SEVERAL = (
+    ("Sq", "Sq, rms height", _LENGTH),
+    ("Sa", "Sa, mean height", _LENGTH),
+    ("Sz", "Sz, peak to valley", _LENGTH),
+    ("Ssk", "Ssk, skewness", _NUMBER),
+    ("Sku", "Sku, kurtosis", _NUMBER),
+    ("Sdq", "Sdq, rms slope", _NUMBER),
+    ("autocorrelation_length_x", "autocorrelation length, x", _LENGTH),
+    ("autocorrelation_length_y", "autocorrelation length, y", _LENGTH),
+    ("Sk", "Sk, core height", _LENGTH),
+    ("Spk", "Spk, reduced peak height", _LENGTH),
+    ("Svk", "Svk, reduced valley depth", _LENGTH),
+    ("Smr1", "Smr1, material ratio of the peaks", _SHARE),
+    ("Smr2", "Smr2, material ratio above the valleys", _SHARE),
+    ("asperity_density", "asperities per mm² (summits of cells)", _PER_AREA),
+    ("asperity_radius", "asperity radius, mean", _LENGTH),
+    ("spectrum_hurst", "Hurst exponent", _NUMBER),
+    ("spectrum_rolloff_wavelength", "roll-off wavelength", _LENGTH),
+)
+"""Parameters of several measurements: name, words, and how they are written."""
+
+
+def _show_measurements(files: list[Path], surfaces: list[Surface], *, json: bool) -> None:
+    """Print means and scatter of several measurements, as a table or as JSON."""
+    from bem.cli._terminal import table
+    from bem.surfaces import describe_measurements
+
+    found = describe_measurements(surfaces)
+    if json:
+        import json as writer
+
+        parameters = {
+            name: {"mean": _finite(one.mean), "scatter": _finite(one.scatter), "values": list(map(_finite, one.values))}
+            for name, one in found.parameters.items()
+        }
+        spectrum = {
+            name: list(map(_finite, getattr(found.spectrum, name).tolist()))
+            for name in ("wavenumber", "density", "scatter", "measurements")
+        }
+        print(writer.dumps({"files": [str(file) for file in files], "parameters": parameters, "spectrum": spectrum}))
+        return
+    rows = []
+    for name, words, how in _OF_SEVERAL:
+        one = found.parameters.get(name)
+        if one is None or not one.known.size:
+            continue
+        few = "" if one.known.size == len(files) else f" ({one.known.size} of {len(files)})"
+        numbers = (one.mean, one.scatter, one.finite_size, float(one.known.min()), float(one.known.max()))
+        unit = _unit_of(one.mean)
+        rows.append(
+            (words + few, *(_written(value, how, digits, unit) for value, digits in zip(numbers, _DIGITS, strict=True)))
+        )
+    head = ("figure", "mean", "scatter", "by finite size", "lowest", "highest")
+    table(head, rows, title=f"{len(files)} measurements", right=(1, 2, 3, 4, 5))
+    print("scatter: standard deviation of the measurements; by finite size: what maps of this size would have anyway.")
+    height = found.parameters["Sq"]
+    if height.scatter > _BEYOND_SIZE * height.finite_size:
+        print(
+            f"Sq scatters by {height.scatter / height.mean:.0%}, by the finite size of the maps alone by "
+            f"{height.finite_size / height.mean:.0%}: the surface differs from place to place, or the measurements do."
+        )
+    spacings = sorted({max(one.spacing) for one in surfaces})
+    if spacings[-1] > _SAME_SPACING * spacings[0]:
+        from bem.quantities import si
+
+        print(
+            f"Points lie {si(spacings[0], 'm', digits=3)} to {si(spacings[-1], 'm', digits=3)} apart: slopes and "
+            "asperities follow the spacing. Compare the spectra (--figure)."
+        )
+    for file, surface in zip(files, surfaces, strict=True):
+        _hints(surface, file.name)
+
+
+_DIGITS = (4, 2, 2, 4, 4)
+"""Digits of mean, scatter, finite size, lowest, highest."""
+_BEYOND_SIZE = 2.0
+"""Scatter over standard error by finite size that chance exceeds in 5 % of cases with two maps, 2 % with three."""
+_SAME_SPACING = 1.05
+"""Ratio of spacings up to which slopes are compared without a word."""
+
+
+def _unit_of(length: float) -> tuple[float, str]:
+    """Return size [m] and name of the unit in which a length has one to three digits before the point."""
+    units = ((1e-3, "mm"), (1e-6, "um"), (1e-9, "nm"))
+    return next(((size, name) for size, name in units if abs(length) >= size), units[-1])
+
+
+def _written(value: float, how: str, digits: int, unit: tuple[float, str]) -> str:
+    """Return a parameter as a table has it, lengths in the unit of their mean; empty where it is unknown."""
+    import math
+
+    if not math.isfinite(value):
+        return ""
+    if how == _LENGTH:
+        return f"{value / unit[0]:.{digits}g} {unit[1]}"
+    if how == _SHARE:
+        return f"{value:.1%}"
+    return f"{value * (1e-6 if how == _PER_AREA else 1.0):.{digits}g}"

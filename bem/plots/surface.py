@@ -1,7 +1,8 @@
-"""A surface on one sheet: heights, their distribution, material ratio, autocorrelation, spectrum."""
+"""A surface on one sheet: heights, distribution, material ratio, autocorrelation, spectrum; spectra of several."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from bem.surfaces import (
     material_ratio,
     radial_spectrum,
 )
+from bem.surfaces.measurements import finite_size_of, mean_spectrum, periodic_axes
 from bem.surfaces.self_affine import self_affine_fit_of_map
 
 
@@ -61,6 +63,9 @@ def draw_surface(surface: Surface, path: Path, *, periodic: tuple[bool, bool] = 
         ratio_axes.set_xlabel("material ratio (%)")
         ratio_axes.set_ylabel(label("height", unit))
         shown = [f"{name} = {getattr(described, name) * factor:.3g} {unit}" for name in ("Sq", "Sa", "Sz")]
+        error = finite_size_of(surface)
+        if error.Sq > 0:
+            shown[0] += f" ± {error.Sq * factor:.2g} {unit}"
         shown += [f"{name} = {getattr(described, name):.3g}" for name in ("Ssk", "Sku", "Sdq")]
         shown += [f"{name} = {getattr(ratio, name) * factor:.3g} {unit}" for name in ("Sk", "Spk", "Svk")]
         shown += [f"{name} = {getattr(ratio, name):.1%}" for name in ("Smr1", "Smr2")]
@@ -92,6 +97,62 @@ def draw_surface(surface: Surface, path: Path, *, periodic: tuple[bool, bool] = 
             spectrum_axes.set_axis_off()
         text_axes.set_axis_off()
         text_axes.text(0.05, 0.97, "\n".join(shown), transform=text_axes.transAxes, va="top")
+        with replacing(path) as temporary:
+            figure.savefig(temporary, format=path.suffix[1:].lower())
+    return path
+
+
+_MOST_NAMED = 8
+"""Measurements whose files the legend names."""
+
+
+def draw_measurements(surfaces: Sequence[Surface], names: Sequence[str], path: Path) -> Path:
+    """Write the radial power spectral density averaged over measurements, its scatter as a band, and each of them.
+
+    surfaces : two or more maps. names : of the measurements. path : .png, .pdf or .svg.
+
+    Raises
+    ------
+    InputError : a map of fewer than 4 x 4 cells.
+    ResultsError : the file cannot be written.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    mean = mean_spectrum(surfaces)
+    with style():
+        figure = Figure(figsize=(6.4, 4.8), layout="constrained")
+        FigureCanvasAgg(figure)
+        axes = figure.subplots()
+        exponents = []
+        for number, (surface, name) in enumerate(zip(surfaces, names, strict=True)):
+            periodic = periodic_axes(surface)
+            one = radial_spectrum(surface.heights, surface.spacing, periodic=periodic)
+            seen = one.density > 1e-20 * one.density.max()
+            words = name if len(surfaces) <= _MOST_NAMED else ("each measurement" if number == 0 else None)
+            axes.loglog(
+                one.wavenumber[seen] * 1e-6,
+                one.density[seen] * 1e24,
+                color=f"C{number}" if len(surfaces) <= _MOST_NAMED else "0.7",
+                linewidth=0.6,
+                alpha=0.7,
+                label=words,
+            )
+            fit = self_affine_fit_of_map(surface.heights, surface.spacing, periodic=periodic)
+            if fit is not None and 0 < fit.hurst < 1:
+                exponents.append(fit.hurst)
+        known = np.isfinite(mean.scatter)
+        q, density, spread = mean.wavenumber[known] * 1e-6, mean.density[known] * 1e24, np.exp(mean.scatter[known])
+        axes.fill_between(
+            q, density / spread, density * spread, color=BLACK, alpha=0.18, linewidth=0, label="scatter (one deviation)"
+        )
+        hurst = ""
+        if len(exponents) > 1:
+            hurst = f", H = {np.mean(exponents):.2f} ± {np.std(exponents, ddof=1):.2g} (scatter)"
+        axes.loglog(mean.wavenumber * 1e-6, mean.density * 1e24, color=BLACK, label=f"mean of {len(surfaces)}{hurst}")
+        axes.set_xlabel("wavenumber (rad/µm)")
+        axes.set_ylabel("power spectral density (µm⁴)")
+        axes.legend(loc="lower left")
         with replacing(path) as temporary:
             figure.savefig(temporary, format=path.suffix[1:].lower())
     return path

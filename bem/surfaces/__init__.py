@@ -3,8 +3,9 @@
 `generate` makes heights of a `spectrum` (`request` checks what is asked, `moments` imposes skewness and kurtosis),
 `processes` are statistics by how a surface is made, `marks` what a tool leaves, `read` opens an instrument's file by
 its `formats`, `filter` levels, despikes, fills, cuts and resamples, `seams` makes a map periodic, `describe` measures,
-with `material_ratio_curve` (Abbott curve), `self_affine` (Hurst exponent) and `asperities` (summits and plasticity
-indices); `examples` are two maps of our own.
+with `material_ratio_curve` (Abbott curve), `self_affine` (Hurst exponent), `asperities` (summits and plasticity
+indices), `finite_size` (errors by the size of a map) and `measurements` (several maps); `examples` are two maps of our
+own.
 Names are loaded when first used: planning a contact of smooth bodies costs no transforms and no splines.
 
 Sees grids and no contact. Verified in tests/surfaces: what is asked for is what `describe` finds, the same seed gives
@@ -42,10 +43,12 @@ if TYPE_CHECKING:
         resample,
         scale_to_rms,
     )
+    from bem.surfaces.finite_size import FiniteSizeError, finite_size_error
     from bem.surfaces.formats import SurfaceFormat
     from bem.surfaces.generate import generate_surface
     from bem.surfaces.marks import cross_hatch, feed_marks, hatch_angle
     from bem.surfaces.material_ratio_curve import MaterialRatio, material_ratio
+    from bem.surfaces.measurements import MeanSpectrum, Measurements, ParameterScatter, describe_measurements
     from bem.surfaces.processes import PROCESSES, Process
     from bem.surfaces.read import read_surface, write_surface
     from bem.surfaces.seams import close_seams
@@ -55,8 +58,12 @@ if TYPE_CHECKING:
 __all__ = [
     "PROCESSES",
     "AsperityStatistics",
+    "FiniteSizeError",
     "MaterialRatio",
+    "MeanSpectrum",
+    "Measurements",
     "MirrorWarning",
+    "ParameterScatter",
     "Process",
     "RadialSpectrum",
     "SelfAffineFit",
@@ -68,11 +75,13 @@ __all__ = [
     "crop",
     "cross_hatch",
     "describe_asperities",
+    "describe_measurements",
     "describe_surface",
     "despike",
     "detrend",
     "feed_marks",
     "fill_missing",
+    "finite_size_error",
     "fit_self_affine",
     "generate_surface",
     "hatch_angle",
@@ -110,9 +119,11 @@ __getattr__ = loader(
             "resample",
             "scale_to_rms",
         ],
+        "finite_size": ["FiniteSizeError", "finite_size_error"],
         "formats": ["SurfaceFormat"],
         "generate": ["generate_surface"],
         "marks": ["cross_hatch", "feed_marks", "hatch_angle"],
+        "measurements": ["MeanSpectrum", "Measurements", "ParameterScatter", "describe_measurements"],
         "processes": ["PROCESSES", "Process"],
         "read": ["read_surface", "write_surface"],
         "seams": ["close_seams"],
