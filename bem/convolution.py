@@ -39,7 +39,7 @@ from bem.errors import InputError
 from bem.grid import Grid
 from bem.kernels.coefficients import Load, surface_coefficients
 from bem.kernels.layered import frequency_response
-from bem.kernels.loads import refuse_crystal
+from bem.kernels.loads import refuse_special_surface
 from bem.kernels.spectral import surface_response
 from bem.materials import Body, Material
 from bem.numerics.cache import KeptValues, Sized, bytes_of
@@ -152,10 +152,12 @@ def cached_spectra(key: tuple[Any, ...], make: Callable[[], _Cached]) -> _Cached
 def elastic_constants(body: Body) -> tuple[Any, ...]:
     """Return the properties that determine the elastic response of a body.
 
-    Young's modulus and Poisson's ratio of each medium, then the depths of the interfaces; of a crystal its stiffness.
+    Young's modulus and Poisson's ratio of each medium, then the depths of the interfaces; of a crystal its stiffness,
+    and of a surface under tension its tension too.
     """
     if not body.boussinesq and body.homogeneous:
-        return (body.material.stiffness,)
+        material = body.material
+        return (material.stiffness or _moduli(material), material.surface_tension)
     return (*(value for solid in body.media for value in _moduli(solid)), *body.interfaces)
 
 
@@ -179,7 +181,8 @@ def couples(bodies: tuple[Body, ...]) -> bool:
 def _mean_response(body: Body, wavenumber: float) -> float:
     """Return u / p [m/Pa] of a harmonic pressure of a wavenumber [rad/m], the mean over its directions."""
     if not body.boussinesq and body.homogeneous:
-        return 2 / (body.material.plane_strain_modulus * wavenumber)
+        material = body.material
+        return 2 / (material.plane_strain_modulus * wavenumber * (1 + wavenumber * material.elastocapillary_length))
     return float(frequency_response.surface_response(wavenumber, 0.0, body, Load.NORMAL))
 
 
@@ -484,8 +487,8 @@ def displacement_operator(
 
     Raises
     ------
-    InputError : not a Grid, not one or two bodies, a friction or compliance that is not finite, friction on a crystal,
-        a crystal whose surface does not respond alike on both sides of the x axis.
+    InputError : not a Grid, not one or two bodies, a friction or compliance that is not finite, friction on a crystal
+        or a surface under tension, a crystal whose surface does not respond alike on both sides of the x axis.
     """
     messages = []
     if not isinstance(grid, Grid):
@@ -501,7 +504,7 @@ def displacement_operator(
         raise InputError(messages)
     for body in pair:
         if friction != 0:
-            refuse_crystal(body, "displacements under friction")
+            refuse_special_surface(body, "displacements under friction")
         if body.material.stiffness is not None:
             body.material.stiffness.check_mirror_symmetric()
     return DisplacementOperator(grid, tuple(pair), float(friction), compliance=float(compliance))

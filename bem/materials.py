@@ -26,6 +26,7 @@ _UNITS = {
     "thermal_conductivity": "W/(m K)",
     "density": "kg/m^3",
     "heat_capacity": "J/(kg K)",
+    "surface_tension": "N/m",
 }
 
 
@@ -49,6 +50,8 @@ class Material:
     stiffness : of a crystal; None for an isotropic solid. Only `bem.convolution.displacement_operator` looks at it:
         other solvers take `youngs_modulus` and `poissons_ratio`, those of an isotropic solid that an indenter finds as
         stiff (Poisson's ratio that of the polycrystal).
+    surface_tension : gamma [N/m] of the surface of a soft solid; None for none. As with `stiffness`, only
+        `displacement_operator` looks at it.
 
     Raises
     ------
@@ -65,6 +68,7 @@ class Material:
     heat_capacity: float | None = None
     relaxation: PronySeries | None = None
     stiffness: Stiffness | None = None
+    surface_tension: float | None = None
 
     def __init__(
         self,
@@ -79,6 +83,7 @@ class Material:
         heat_capacity: float | None = None,
         relaxation: PronySeries | None = None,
         stiffness: Stiffness | None = None,
+        surface_tension: float | None = None,
     ) -> None:
         optional = {
             "hardness": hardness,
@@ -86,6 +91,7 @@ class Material:
             "thermal_conductivity": thermal_conductivity,
             "density": density,
             "heat_capacity": heat_capacity,
+            "surface_tension": surface_tension,
         }
         messages = []
         if not isinstance(stiffness, Stiffness | None):
@@ -101,6 +107,9 @@ class Material:
                     f"Material {name!r}: relaxation is given beside stiffness; a body that relaxes is isotropic"
                 )
             poissons_ratio = stiffness.poissons_ratio
+        if surface_tension is not None and (stiffness is not None or relaxation is not None):
+            other = "stiffness" if stiffness is not None else "relaxation"
+            messages.append(f"Material {name!r}: surface_tension is given beside {other}; allowed: one of them")
         if stiffness is None and not is_positive(youngs_modulus):
             messages.append(f"Material {name!r}: youngs_modulus {youngs_modulus!r} must be positive and finite [Pa]")
         if poissons_ratio is None or not (is_finite(poissons_ratio) and -1 < poissons_ratio < 0.5):
@@ -139,8 +148,13 @@ class Material:
 
     @property
     def boussinesq(self) -> bool:
-        """Return True if a point force displaces the surface as Boussinesq says: an isotropic solid."""
-        return self.stiffness is None
+        """Return True if a point force displaces the surface as Boussinesq says: isotropic, without surface tension."""
+        return self.stiffness is None and self.surface_tension is None
+
+    @property
+    def elastocapillary_length(self) -> float:
+        """2 gamma (1 - nu^2) / E [m], below which surface tension is stiffer than elasticity; 0 without tension."""
+        return 2 * (self.surface_tension or 0.0) / self.plane_strain_modulus
 
     @property
     def thermal_diffusivity(self) -> float | None:
@@ -177,6 +191,10 @@ def _follows(stiffness: Stiffness, key: str, value: float) -> bool:
     """Return True if a constant given beside a stiffness is the one that follows from it."""
     found = _youngs_modulus(stiffness) if key == "youngs_modulus" else stiffness.poissons_ratio
     return is_finite(value) and abs(value - found) <= 1e-9 * abs(found)
+
+
+def _special(material: Material) -> str:
+    return "is a crystal" if material.stiffness is not None else "has surface tension"
 
 
 def _of_the_catalogue(material: Any) -> Any:
@@ -267,9 +285,9 @@ class Body:
             messages.append("Body: layer and layers are both given; layer=L is layers=(L,)")
         coated = [*stack, *([] if layer is None else [layer])]
         crystals = [
-            f"Body: {solid.name} is a crystal in a body with layers; allowed: isotropic layers on an isotropic body"
+            f"Body: {solid.name} {_special(solid)} in a body with layers; allowed: isotropic layers and body without it"
             for solid in (material, *(getattr(one, "material", None) for one in coated))
-            if coated and isinstance(solid, Material) and solid.stiffness is not None
+            if coated and isinstance(solid, Material) and not solid.boussinesq
         ]
         messages += crystals[:1]
         if messages:

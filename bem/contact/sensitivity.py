@@ -303,14 +303,15 @@ def sensitivities(
 
     Raises
     ------
-    InputError : layered bodies or a local compliance, whose modulus is no scale of all displacements: use
-        `contact_tangent`; else as `contact_tangent`.
+    InputError : layered bodies, surface tension or a local compliance, whose modulus is no scale of all displacements:
+        use `contact_tangent`; else as `contact_tangent`.
     ConvergenceError : as `contact_tangent`.
     """
-    if operator.compliance > 0 or not all(body.homogeneous for body in operator.bodies):
+    tense = any(body.material.surface_tension is not None for body in operator.bodies)
+    if operator.compliance > 0 or tense or not all(body.homogeneous for body in operator.bodies):
         raise InputError(
-            "sensitivities: layered bodies and a local compliance have no one modulus; allowed: homogeneous bodies, "
-            "or contact_tangent with the change of the displacement"
+            "sensitivities: layered bodies, surface tension and a local compliance have no one modulus; allowed: "
+            "homogeneous bodies without tension, or contact_tangent with the change of the displacement"
         )
     gap = operator.grid.check_field(gap, "sensitivities: gap")
     directions: dict[str, InputChange] = {}

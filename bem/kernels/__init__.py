@@ -25,6 +25,12 @@ all non-negative offsets between cells; a radial table holds a function of the d
 5. Two periodic axes. `spectral` gives the response to a harmonic load in closed form (Johnson 1985, section 13.2), or
    from the frequency response of the layers. Cost: one evaluation for each wavevector.
 
+6. Crystals and surfaces under tension, under pressure alone (`special_surfaces`). `anisotropic` has the response A(phi)
+   / q of a crystal from the Barnett-Lothe integral (`bem.stiffness`), and the point force g(theta) / r in closed form
+   for each harmonic; `surface_tension` has 2 / (E* q (1 + q s)) and the point force by the functions of Struve and
+   Neumann. `cell_integrals` integrates a point force over cells and sums images along one periodic axis. Relative
+   error: 1e-12.
+
 Kernels are pure functions of materials and grids; they know no solver and no file format. Verified in tests/kernels
 against quadrature of point forces in extended precision and a 90-digit solution of elasticity in stacks of layers, and
 by the gates of `bem verify` against finite elements.

@@ -10,10 +10,10 @@ the m-th harmonic changes its sign with m. An isotropic solid has A = 2/E* and g
 
 1. Near the cell: a rectangle from the point to a corner (x, y) contributes x P(theta) + y Q(theta), with the integrals
    P of g / cos from 0 to theta and Q of g / sin from theta to pi/2, in closed form (`_Corner`), summed over corners.
-2. Far from it: Gauss rules of the point force, as in `half_space`. Corner sums lose (distance / side)^2 digits.
-3. Long cells are cut into pieces of at most twice their width.
-4. One periodic axis: an isotropic surface that is as stiff under a line load along that axis carries the mean over the
-   period and the logarithm of the distance; the difference of both is summed over the images (`_images`).
+2. Far from it: Gauss rules of the point force (`cell_integrals`).
+3. One periodic axis: an isotropic surface that is as stiff under a line load along that axis carries the mean over the
+   period and the logarithm of the distance. The difference of both has g(pi/2) = 0, so that it decays like 1 / k^3
+   along the axis; it is summed over the images (`cell_integrals.image_sum`).
 
 Kernels here are even along each axis: the x axis must be a line of mirror symmetry of the response (b_m = 0).
 
@@ -29,27 +29,10 @@ import numpy as np
 
 from bem.grid import FloatArray, Grid
 from bem.kernels import semi_periodic
-from bem.kernels.euler_maclaurin import euler_maclaurin
+from bem.kernels.cell_integrals import cell_table, image_sum
 from bem.kernels.loads import Load
 from bem.materials import Material
-from bem.numerics.blocks import row_blocks
 from bem.stiffness import Stiffness
-
-_NEAR = 12.0
-"""Corner sums are used up to this distance in half sides, Gauss points beyond."""
-
-_RULES = ((1000.0, 3), (100.0, 4), (30.0, 6), (0.0, 8))
-"""Gauss points a side beyond a distance in half sides.
-
-One or two more than for 1/r: g(theta) is analytic only in a strip about the real angles, which narrows with the
-anisotropy.
-"""
-
-_FIRST_INTEGRATED = 10
-"""Number of the first image that is summed by the integral, as in `semi_periodic`."""
-
-_NODES, _LINE_POINTS = 24, 12
-"""Chebyshev nodes along half a period, and Gauss points a side of a cell for images that are summed by the integral."""
 
 
 def angular_function(stiffness: Stiffness, angles: FloatArray) -> FloatArray:
@@ -63,21 +46,21 @@ def angular_function(stiffness: Stiffness, angles: FloatArray) -> FloatArray:
     return found / (2 * np.pi)
 
 
-def surface_response(kx: FloatArray, ky: FloatArray, stiffness: Stiffness) -> FloatArray:
+def surface_response(kx: FloatArray, ky: FloatArray, material: Material) -> FloatArray:
     """Return u / p [m/Pa] of harmonic pressures, kx and ky broadcast together [rad/m]; 0 at the mean mode.
 
     Raises
     ------
     InputError : a response that is not symmetric about x.
     """
-    even = _even_harmonics(stiffness)
+    even = _even_harmonics(material)
     q = np.hypot(kx, ky)
     safe = np.where(q > 0, q, 1.0)
     cosine = (kx - ky) * (kx + ky) / safe**2
     return np.where(q > 0, _clenshaw(even, cosine) / safe, 0.0)
 
 
-def surface_table(grid: Grid, stiffness: Stiffness) -> FloatArray:
+def surface_table(grid: Grid, material: Material) -> FloatArray:
     """Return the normal surface displacement [m/Pa] at offsets (i dx, j dy) from a cell under unit pressure, (nx, ny).
 
     On a grid with one periodic axis the images of the cell are summed; the datum is that of `semi_periodic`.
@@ -86,7 +69,7 @@ def surface_table(grid: Grid, stiffness: Stiffness) -> FloatArray:
     ------
     InputError : a response that is not symmetric about x.
     """
-    even = _even_harmonics(stiffness)
+    even = _even_harmonics(material)
     if grid.periodic[0]:  # with the axes exchanged: theta becomes pi/2 - theta
         turned = even * (-1.0) ** np.arange(len(even))
         swapped = Grid(grid.shape[::-1], grid.spacing[::-1], periodic=(False, True))
@@ -101,77 +84,19 @@ def _table(grid: Grid, even: FloatArray) -> FloatArray:
     dx, dy = grid.spacing[0] / unit, grid.spacing[1] / unit
     x, y = dx * np.arange(grid.shape[0], dtype=np.float64), dy * np.arange(grid.shape[1], dtype=np.float64)
     if not grid.periodic[1]:
-        return unit * _cells(x, y, (dx, dy), point)
+        return unit * cell_table(x, y, (dx, dy), CrystalPoint(point))
     material = Material("as stiff under a line load", youngs_modulus=2 / float(even.sum()), poissons_ratio=0.0)
-    point[0] -= float(even.sum()) / (2 * np.pi)  # g(pi/2), of a line load along y
     mean: FloatArray = semi_periodic.surface_table(grid, material, Load.NORMAL)
-    return mean + unit * _images(x, y, (dx, dy), point)
+    if grid.shape[1] == 1:
+        return mean
+    point[0] -= float(even.sum()) / (2 * np.pi)  # g(pi/2), of a line load along y
+    return mean + unit * image_sum(x, y, (dx, dy), CrystalPoint(point))
 
 
-def _cells(x: FloatArray, y: FloatArray, sides: tuple[float, float], point: FloatArray) -> FloatArray:
-    """Return the integral of g / r over a cell at the points of a table (x, y): (nx, ny)."""
-    dx, dy = sides
-    pieces_x, pieces_y = max(1, math.ceil(dx / (2 * dy))), max(1, math.ceil(dy / (2 * dx)))
-    a, b = 0.5 * dx / pieces_x, 0.5 * dy / pieces_y
-    out = np.zeros((len(x), len(y)))
-    for i in range(pieces_x):
-        for j in range(pieces_y):
-            left, low = (2 * i + 1 - pieces_x) * a, (2 * j + 1 - pieces_y) * b
-            for first, last in row_blocks((len(x), 8 * len(y))):
-                out[first:last] += _pieces(x[first:last, None] - left, y[None, :] - low, a, b, point)
-    return out
-
-
-def _images(x: FloatArray, y: FloatArray, sides: tuple[float, float], point: FloatArray) -> FloatArray:
-    """Return the sum of the integrals of g / r over a cell and its images along y: (nx, ny), for g(pi/2) = 0.
-
-    Since g is even about y, its sum converges like that of 1 / k^3. The images up to k = 1 are cells; the others form a
-    function that is smooth on the scale of the period and is interpolated from Chebyshev nodes. From k = 9.5 its sum is
-    an integral, in closed form for a point force, and the Euler-Maclaurin terms.
-    """
-    count, period = len(y), len(y) * sides[1]
-    half = y[: count // 2 + 1]
-    out = np.zeros((len(x), len(half)))
-    for k in (-1, 0, 1):
-        out += _cells(x, half + k * period, sides, point)
-    angles = (np.arange(_NODES) + 0.5) * np.pi / _NODES
-    middle = 0.25 * period
-    nodes = middle * (1 + np.cos(angles))
-    tail = np.zeros((len(x), _NODES))
-    places = [(float(k), 1.0) for k in range(2, _FIRST_INTEGRATED)]
-    start = _FIRST_INTEGRATED - 0.5
-    for t, weight in zip(*euler_maclaurin(16, 2), strict=True):
-        places += [(start + t, weight), (start - t, -weight)]
-    for place, weight in places:
-        for side in (-1.0, 1.0):
-            tail += weight * _cells(x, nodes + side * place * period, sides, point)
-    tail += _line_beyond(x, nodes, start * period, sides, point) / period
-    orders = np.arange(_NODES)
-    cardinal = np.cos(orders[:, None] * angles) * np.where(orders > 0, 2.0, 1.0)[:, None] / _NODES
-    basis = np.cos(orders[:, None] * np.arccos(np.clip(half / middle - 1, -1, 1)))
-    out += tail @ cardinal.T @ basis
-    return np.concatenate([out, out[:, 1 : (count + 1) // 2][:, ::-1]], axis=1)
-
-
-def _line_beyond(
-    x: FloatArray, y: FloatArray, start: float, sides: tuple[float, float], point: FloatArray
-) -> FloatArray:
-    """Return the integral of g / r over a cell, integrated along y beyond `start` on both sides: (nx, ny)."""
-    nodes, weights = np.polynomial.legendre.leggauss(_LINE_POINTS)
-    corner, zero = _Corner(point), np.zeros(1)
-    whole = float(corner(zero + 1e-300, zero + 1.0)[0])  # at theta = pi/2
-    total = np.zeros((len(x), len(y)))
-    for u, along in zip(0.5 * sides[0] * nodes, weights, strict=True):
-        for v, across in zip(0.5 * sides[1] * nodes, weights, strict=True):
-            right = np.broadcast_to(np.abs(x - u)[:, None], total.shape)
-            for side in (-1.0, 1.0):
-                total += along * across * (whole - corner(right, start + side * (y - v)[None, :]))
-    return 0.25 * sides[0] * sides[1] * total
-
-
-def _even_harmonics(stiffness: Stiffness) -> FloatArray:
-    stiffness.check_mirror_symmetric()
-    return stiffness.harmonics[0]
+def _even_harmonics(material: Material) -> FloatArray:
+    assert material.stiffness is not None
+    material.stiffness.check_mirror_symmetric()
+    return material.stiffness.harmonics[0]
 
 
 def _clenshaw(coefficients: FloatArray, cosine: FloatArray) -> FloatArray:
@@ -183,44 +108,33 @@ def _clenshaw(coefficients: FloatArray, cosine: FloatArray) -> FloatArray:
     return coefficients[0] + cosine * latest - later
 
 
-def _pieces(x: FloatArray, y: FloatArray, a: float, b: float, point: FloatArray) -> FloatArray:
-    """Return the integral of g / r over |x'| < a, |y'| < b at the points (x, y), which broadcast together."""
-    x, y = np.broadcast_arrays(x, y)
-    ratio = np.hypot(x, y) / max(a, b)
-    out = np.empty(x.shape)
-    near = ratio < _NEAR
-    if near.any():
-        out[near] = _near(x[near], y[near], a, b, point)
-    above = math.inf
-    for least, count in _RULES:
-        far = (ratio >= max(least, _NEAR)) & (ratio < above)
-        above = least
-        if far.any():
-            out[far] = _gauss(x[far], y[far], a, b, point, count)
-    return out
+class CrystalPoint:
+    """Point response g(theta) / r, g = sum of c_m cos(2 m theta)."""
 
+    def __init__(self, coefficients: FloatArray) -> None:
+        self.coefficients = coefficients
+        self.along_x = _Corner(coefficients)
+        self.along_y = _Corner(coefficients * (-1.0) ** np.arange(len(coefficients)))
 
-def _gauss(x: FloatArray, y: FloatArray, a: float, b: float, point: FloatArray, count: int) -> FloatArray:
-    nodes, weights = np.polynomial.legendre.leggauss(count)
-    total = np.zeros_like(x)
-    for u, along in zip(a * nodes, weights, strict=True):
-        for v, across in zip(b * nodes, weights, strict=True):
-            squared_x, squared_y = (x - u) ** 2, (y - v) ** 2
-            squared = squared_x + squared_y
-            total += along * across * _clenshaw(point, (squared_x - squared_y) / squared) / np.sqrt(squared)
-    return a * b * total
+    def value(self, squared_x: FloatArray, squared_y: FloatArray) -> FloatArray:
+        """Return g / r at the squares of the distances along x and y."""
+        squared = squared_x + squared_y
+        return _clenshaw(self.coefficients, (squared_x - squared_y) / squared) / np.sqrt(squared)
 
+    def near(self, x: FloatArray, y: FloatArray, a: float, b: float) -> FloatArray:
+        """Return the integral of g / r over |x'| < a, |y'| < b at points (n,)."""
+        total = np.zeros_like(x)
+        for i in (-1, 1):
+            for j in (-1, 1):
+                u, v = x + i * a, y + j * b
+                right, up = np.abs(u), np.abs(v)
+                corner = right * self.along_x(right, up) + up * self.along_y(up, right)
+                total += i * j * np.sign(u) * np.sign(v) * corner
+        return total
 
-def _near(x: FloatArray, y: FloatArray, a: float, b: float, point: FloatArray) -> FloatArray:
-    along_x, along_y = _Corner(point), _Corner(point * (-1.0) ** np.arange(len(point)))
-    total = np.zeros_like(x)
-    for i in (-1, 1):
-        for j in (-1, 1):
-            u, v = x + i * a, y + j * b
-            right, up = np.abs(u), np.abs(v)
-            corner = right * along_x(right, up) + up * along_y(up, right)
-            total += i * j * np.sign(u) * np.sign(v) * corner
-    return total
+    def beyond(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Return the integral of g / r along y from y to infinity, for g(pi/2) = 0."""
+        return self.along_x.whole - self.along_x(x, y)
 
 
 class _Corner:
@@ -237,6 +151,8 @@ class _Corner:
         self.logarithmic = float(tails[0])
         orders = np.arange(1, len(coefficients))
         self.sines = 2 * signs[1:] * tails[1:] / (2 * orders - 1)
+        self.whole = float(np.sum(self.sines * (-1.0) ** (orders + 1)))
+        """P at theta = pi/2 without its logarithm."""
 
     def __call__(self, u: FloatArray, v: FloatArray) -> FloatArray:
         """Return P at corners (u, v), not negative; 0 at u = 0, where it is multiplied by u."""

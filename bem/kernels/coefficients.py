@@ -16,7 +16,14 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kernels import half_space, semi_periodic, subsurface
-from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, refuse_crystal
+from bem.kernels.loads import (
+    IN_PLANE_PARITY,
+    STRESS_PARITY,
+    SURFACE_PARITY,
+    Load,
+    refuse_special_surface,
+)
+from bem.kernels.special_surfaces import special_surface
 from bem.materials import Body
 from bem.threads import one_blas_thread
 
@@ -40,15 +47,13 @@ def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
 
     Raises
     ------
-    InputError : a doubly periodic grid; a crystal under traction.
+    InputError : a doubly periodic grid; a crystal, or surface tension, under traction.
     """
     _refuse_doubly_periodic(grid)
     if load is Load.TANGENTIAL:
-        refuse_crystal(body, "displacements under traction")
-    if body.surface_material.stiffness is not None:
-        from bem.kernels import anisotropic  # no other body needs it
-
-        return anisotropic.surface_table(grid, body.surface_material.stiffness)
+        refuse_special_surface(body, "displacements under traction")
+    if not body.boussinesq and body.homogeneous:
+        return special_surface(body.material).surface_table(grid, body.material)
     if grid.periodic == (False, False):
         table = half_space.surface_table(grid.shape, grid.spacing, body.surface_material, load)
     else:
@@ -69,10 +74,10 @@ def in_plane_coefficients(grid: Grid, body: Body) -> FloatArray:
 
     Raises
     ------
-    InputError : a doubly periodic grid; a crystal.
+    InputError : a doubly periodic grid; a crystal or surface tension.
     """
     _refuse_doubly_periodic(grid)
-    refuse_crystal(body, "displacements under traction")
+    refuse_special_surface(body, "displacements under traction")
     if grid.periodic == (False, False):
         table = half_space.in_plane_table(grid.shape, grid.spacing, body.surface_material)
     else:
@@ -91,10 +96,10 @@ def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> Flo
 
     Raises
     ------
-    InputError : a doubly periodic grid; a depth that is negative or not finite; a crystal.
+    InputError : a doubly periodic grid; a depth that is negative or not finite; a crystal or surface tension.
     """
     _refuse_doubly_periodic(grid)
-    refuse_crystal(body, "stresses below the surface")
+    refuse_special_surface(body, "stresses below the surface")
     if not (np.isfinite(depth) and depth >= 0):
         raise InputError(f"depth: {depth!r} must be finite and not negative [m]")
     if body.medium_at(depth) > 0:  # below the outermost layer nothing is split off

@@ -68,15 +68,21 @@ def clear_odd_offsets(table: FloatArray, parities: Parities, first: int = 0) -> 
     return clear_odd(table, x, y, parities)
 
 
-def refuse_crystal(body: Body, wanted: str) -> None:
-    """Refuse a response of a crystal that no kernel knows; `wanted` says which.
+def refuse_special_surface(body: Body, wanted: str) -> None:
+    """Refuse a response of a crystal, or of a surface under tension, that no kernel knows; `wanted` says which.
 
     Raises
     ------
-    InputError : a body of a crystal.
+    InputError : a body of a crystal, or with surface tension.
     """
-    if body.material.stiffness is not None:
+    material = body.material
+    if not material.boussinesq:
+        key, what = (
+            ("stiffness", "a crystal")
+            if material.stiffness is not None
+            else ("surface_tension", "a surface under tension")
+        )
         raise InputError(
-            f"stiffness: {wanted} are not known of a crystal ({body.material.name}); allowed: an isotropic material, "
-            f"or the contact of the crystal under pressure alone"
+            f"{key}: {wanted} are not known of {what} ({material.name}); allowed: an isotropic material without "
+            f"surface tension, or the contact under pressure alone"
         )

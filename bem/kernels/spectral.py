@@ -21,7 +21,15 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kernels.layered import frequency_response
-from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, Parities, refuse_crystal
+from bem.kernels.loads import (
+    IN_PLANE_PARITY,
+    STRESS_PARITY,
+    SURFACE_PARITY,
+    Load,
+    Parities,
+    refuse_special_surface,
+)
+from bem.kernels.special_surfaces import special_surface
 from bem.materials import Body
 
 
@@ -62,16 +70,14 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
 
     Raises
     ------
-    InputError : a grid that is not periodic along both axes; a crystal under traction.
+    InputError : a grid that is not periodic along both axes; a crystal, or surface tension, under traction.
     """
     _check(grid)
     kx, ky, q, odd_x, _ = _wavevectors(grid)
     if load is Load.TANGENTIAL:
-        refuse_crystal(body, "displacements under traction")
-    if body.material.stiffness is not None:
-        from bem.kernels import anisotropic  # no other body needs it
-
-        return anisotropic.surface_response(kx, ky, body.material.stiffness)
+        refuse_special_surface(body, "displacements under traction")
+    if not body.boussinesq and body.homogeneous:
+        return special_surface(body.material).surface_response(kx, ky, body.material)
     if not body.homogeneous:
         tangential, half = load is Load.TANGENTIAL, grid.shape[0] // 2 + 1
         rows = frequency_response.surface_response((odd_x if tangential else kx)[:half], ky[:half], body, load)
@@ -94,10 +100,10 @@ def in_plane_response(grid: Grid, body: Body) -> FloatArray:
 
     Raises
     ------
-    InputError : a grid that is not periodic along both axes; a crystal.
+    InputError : a grid that is not periodic along both axes; a crystal or surface tension.
     """
     _check(grid)
-    refuse_crystal(body, "displacements under traction")
+    refuse_special_surface(body, "displacements under traction")
     kx, ky, q, odd_x, odd_y = _wavevectors(grid)
     if body.homogeneous:
         nu, scale = body.material.poissons_ratio, 1 / (body.material.shear_modulus * q)
@@ -117,10 +123,10 @@ def stress_response(grid: Grid, body: Body, depth: float, load: Load) -> FloatAr
 
     Raises
     ------
-    InputError : a grid that is not periodic along both axes, a negative depth, a crystal.
+    InputError : a grid that is not periodic along both axes, a negative depth, a crystal or surface tension.
     """
     _check(grid)
-    refuse_crystal(body, "stresses below the surface")
+    refuse_special_surface(body, "stresses below the surface")
     if not (np.isfinite(depth) and depth >= 0):
         raise InputError(f"depth: {depth!r} must be finite and not negative [m]")
     kx, ky, q, odd_x, odd_y = _wavevectors(grid)

@@ -21,7 +21,17 @@ from bem.scenes.paths import checksum_of, what_is_wrong_with
 from bem.scenes.ranges import values_of_keys
 from bem.scenes.table import Table, check_rising, exactly_one, one_for_both, one_of, problem
 from bem.scenes.tables.marks import CrossHatchScene, FeedMarksScene
-from bem.scenes.units import Density, Force, HeatCapacity, Length, Pressure, Ratio, ThermalConductivity, Time
+from bem.scenes.units import (
+    Density,
+    Force,
+    HeatCapacity,
+    Length,
+    Pressure,
+    Ratio,
+    SurfaceTension,
+    ThermalConductivity,
+    Time,
+)
 from bem.stiffness import Stiffness
 from bem.surfaces.processes import PROCESSES, Lay, ProcessName, statistics_beside
 
@@ -218,6 +228,14 @@ class MaterialScene(Table):
         default=None,
         reason="elastic",
     )
+    surface_tension: Annotated[SurfaceTension, Field(gt=0)] | None = key(
+        "Surface tension of a soft solid, which flattens it below the length 2 gamma (1 - nu^2) / E; for the kind "
+        "contact, without friction.",
+        "advanced",
+        default=None,
+        reason="none",
+        example="30 mN/m",
+    )
     source: str = key("Source of the constants, repeated in the scene file of the run.", "expert", default="")
 
     @classmethod
@@ -281,6 +299,20 @@ class MaterialScene(Table):
             ) from None
         return self
 
+    @model_validator(mode="after")
+    def _tension_of_an_elastic_body(self) -> Self:
+        if self.surface_tension is not None and (self.relaxation is not None or self.stiffness is not None):
+            other = "relaxation" if self.relaxation is not None else "stiffness"
+            raise problem(f"surface_tension is given beside {other}", "one of them")
+        return self
+
+    @property
+    def special(self) -> str:
+        """What the material is that only contacts under pressure know; empty for another one."""
+        if self.stiffness is not None:
+            return "is a crystal"
+        return "has surface tension" if self.surface_tension is not None else ""
+
     def _crystal(self) -> Stiffness | None:
         if self.stiffness is None:
             return None
@@ -314,8 +346,8 @@ class LayerScene(Table):
     def _elastic_in_time(self) -> LayerScene:
         if self.material.relaxation is not None:
             raise problem("the material of a layer relaxes", "relaxation of bodies without layers")
-        if self.material.stiffness is not None:
-            raise problem("the material of a layer is a crystal", "an isotropic layer")
+        if self.material.special:
+            raise problem(f"the material of a layer {self.material.special}", "an isotropic layer without it")
         return self
 
     @model_validator(mode="after")
@@ -613,8 +645,8 @@ class _LayeredScene(Table):
         if self.layer is not None and self.layers:
             raise problem("layer and layers are both given", "layer for one, or layers for a stack, outermost first")
         material: MaterialScene | None = getattr(self, "material", None)
-        if self.stack and material is not None and material.stiffness is not None:
-            raise problem("layers on a crystal", "layers on an isotropic body, or a bare crystal")
+        if self.stack and material is not None and material.special:
+            raise problem(f"layers on a body whose material {material.special}", "a bare body, or another material")
         return self
 
     @property
@@ -739,16 +771,16 @@ def relaxing_bodies(scene: Table) -> list[str]:
     ]
 
 
-def crystals(scene: Table) -> list[str]:
-    """Return the names of bodies of a scene that are crystals."""
+def special_bodies(scene: Table) -> dict[str, str]:
+    """Return the bodies of a scene that are known under pressure alone, with what they are: crystals, and those whose
+    surface is under tension."""
     bodies = {name: getattr(scene, name) for name in type(scene).model_fields}
-    return [
-        name
+    materials = {
+        name: body.material
         for name, body in bodies.items()
-        if isinstance(body, BodyScene | UpperBodyScene)
-        and body.material is not None
-        and body.material.stiffness is not None
-    ]
+        if isinstance(body, BodyScene | UpperBodyScene) and body.material is not None
+    }
+    return {name: special for name, material in materials.items() if (special := material.special)}
 
 
 def refuse_relaxation(scene: Table, allowed: str) -> None:
@@ -801,8 +833,8 @@ class SceneModel(Table):
     )
     viscoelastic: ClassVar[bool] = False
     """Whether the kind knows bodies that relax."""
-    anisotropic: ClassVar[bool] = False
-    """Whether the kind knows bodies that are crystals."""
+    special_surfaces: ClassVar[bool] = False
+    """Whether the kind knows crystals and surface tension."""
     _source: dict[str, Any] | None = PrivateAttr(default=None)
 
     @field_validator("over", mode="before")
@@ -822,9 +854,10 @@ class SceneModel(Table):
         return self
 
     @model_validator(mode="after")
-    def _crystals_under_pressure(self) -> Self:
-        for name in crystals(self) if not self.anisotropic else []:
-            raise problem(f"{name}.material is a crystal", "an isotropic material, or kind contact")
+    def _special_bodies_under_pressure(self) -> Self:
+        for name, special in special_bodies(self).items() if not self.special_surfaces else ():
+            allowed = "an isotropic material without surface tension, or kind contact"
+            raise problem(f"{name}.material {special}", allowed)
         return self
 
     def with_source(self, table: dict[str, Any]) -> Self:

@@ -47,7 +47,9 @@ def pair_compliance(operator: DisplacementOperator, name: str) -> PairCompliance
     if not all(body.homogeneous for body in operator.bodies):
         messages.append(f"{name}: a body has layers; viscoelastic bodies, and those on them, must be homogeneous")
     elif not all(body.boussinesq for body in operator.bodies):
-        messages.append(f"{name}: a body is a crystal; viscoelastic bodies, and those on them, must be isotropic")
+        messages.append(
+            f"{name}: a body is a crystal or has surface tension; viscoelastic bodies, and those on them, have neither"
+        )
     elif not operator.symmetric or operator.compliance:
         messages.append(f"{name}: the operator must be without friction and additional compliance")
     series = [body.material.relaxation for body in operator.bodies]

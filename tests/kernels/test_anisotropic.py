@@ -9,6 +9,7 @@ import pytest
 
 from bem import Body, Grid, InputError, Layer, Material, displacement_operator
 from bem.kernels import anisotropic, coefficients, half_space, semi_periodic, spectral
+from bem.kernels.cell_integrals import cell_table
 from bem.kernels.loads import Load
 from bem.materials import CATALOGUE
 from bem.stiffness import Stiffness
@@ -126,7 +127,7 @@ def test_point_force_is_the_inverse_transform() -> None:
 def test_isotropic_table_is_that_of_boussinesq(sides: tuple[float, float], periodic: bool) -> None:
     for axes in ((False, periodic), (periodic, False)):
         grid = Grid((30, 21), sides, periodic=axes)
-        found = anisotropic.surface_table(grid, isotropic(STEEL))
+        found = anisotropic.surface_table(grid, Material("as steel", stiffness=isotropic(STEEL)))
         if periodic:
             exact = semi_periodic.surface_table(grid, STEEL, Load.NORMAL)
         else:
@@ -139,7 +140,7 @@ def test_cell_coefficients_match_adaptive_quadrature(crystal: dict[str, float]) 
     """In polar coordinates about the point the radial integral is the length of the ray in the cell."""
     stiffness = Stiffness("cubic", **crystal, normal=(1, 1, 0), along_x=(0, 0, 1))
     dx, dy = 1.0, 1.6
-    table = anisotropic.surface_table(Grid((30, 30), (dx, dy)), stiffness)
+    table = anisotropic.surface_table(Grid((30, 30), (dx, dy)), Material("crystal", stiffness=stiffness))
     even = stiffness.harmonics[0] * (-1.0) ** np.arange(len(stiffness.harmonics[0])) / (2 * np.pi)
 
     def g(theta: float) -> float:
@@ -169,13 +170,18 @@ def test_cell_coefficients_match_adaptive_quadrature(crystal: dict[str, float]) 
 
 def test_near_and_far_rules_agree_where_they_meet() -> None:
     stiffness = Stiffness("cubic", **SODIUM)
-    point = stiffness.harmonics[0] * (-1.0) ** np.arange(len(stiffness.harmonics[0]))
-    angles = np.linspace(0, np.pi / 2, 31)
-    for distance in (12.0, 30.0):
-        x, y = distance * np.cos(angles), distance * np.sin(angles)
-        far = anisotropic._pieces(x, y, 1.0, 1.0, point)
-        near = anisotropic._near(x, y, 1.0, 1.0, point)
-        np.testing.assert_allclose(far, near, rtol=1e-12)
+    even = stiffness.harmonics[0]
+    point = anisotropic.CrystalPoint(even * (-1.0) ** np.arange(len(even)))
+    for distance in (12.1, 30.1):
+        at = np.array([distance]), np.linspace(0, distance, 15)
+        far = cell_table(*at, (2.0, 2.0), point)
+        near = point.near(np.full(15, distance), at[1], 1.0, 1.0)
+        np.testing.assert_allclose(far[0], near, rtol=1e-12)
+    long = cell_table(np.array([0.0, 4.0]), np.array([0.0, 15.0, 40.0]), (2.0, 10.0), point)
+    pieces = [
+        cell_table(np.array([0.0, 4.0]), np.array([0.0, 15.0, 40.0]) - s, (2.0, 2.0), point) for s in (-4, -2, 0, 2, 4)
+    ]
+    np.testing.assert_allclose(long, sum(pieces), rtol=1e-12)
 
 
 def test_images_along_a_periodic_axis_are_summed() -> None:
@@ -190,16 +196,16 @@ def test_images_along_a_periodic_axis_are_summed() -> None:
     sums, total = {}, np.zeros(grid.shape)
     for k in range(365):
         for side in (1, -1) if k else (1,):
-            total += anisotropic._cells(x, y + side * 9.0 * k, (1.0, 1.0), point)
+            total += cell_table(x, y + side * 9.0 * k, (1.0, 1.0), anisotropic.CrystalPoint(point))
         if k in (40, 121, 364):
             sums[k] = total.copy()
     once = [(9 * sums[b] - sums[a]) / 8 for a, b in ((40, 121), (121, 364))]
     exact = semi_periodic.surface_table(grid, as_stiff, Load.NORMAL) + (81 * once[1] - once[0]) / 80
-    found = anisotropic.surface_table(grid, stiffness)
+    found = anisotropic.surface_table(grid, Material("copper", stiffness=stiffness))
     np.testing.assert_allclose(found, exact, rtol=0, atol=1e-11 * np.abs(found).max())
     turned = anisotropic.surface_table(
         Grid((9, 12), (1.0, 1.0), periodic=(True, False)),
-        Stiffness("cubic", **COPPER, normal=(1, 1, 0), along_x=(0, 0, 1)),
+        Material("copper", stiffness=stiffness.oriented((1, 1, 0), (0, 0, 1))),
     )
     np.testing.assert_allclose(turned.T, found, rtol=1e-12, atol=1e-13 * np.abs(found).max())
 

@@ -76,12 +76,18 @@ CUBIC = {"crystal": "cubic", "c11": "3 GPa", "c12": "1 GPa", "c44": "1 GPa"}
         (ball({"youngs_modulus": "3 GPa", "poissons_ratio": 0.3, "orientation": ON_111}), "without stiffness"),
         (ball({"stiffness": CUBIC, "orientation": {"along_x": [0, 0, 1]}}), "is the normal"),
         (ball({"stiffness": CUBIC | {"c44": "2 GPa"}, "orientation": {"along_x": [1, 0.2, 0]}}), "both sides of the x"),
-        (ball("copper-crystal", contact={"load": "1 N", "friction": 0.1}), "friction on a crystal"),
-        (ball("copper-crystal", outputs={"von_mises": True}), "stresses below the surface of a crystal"),
+        (
+            ball("copper-crystal", contact={"load": "1 N", "friction": 0.1}),
+            "contact.friction, and lower.material is a crystal",
+        ),
+        (
+            ball("copper-crystal", outputs={"von_mises": True}),
+            "stresses below the surface of lower, whose material is a crystal",
+        ),
         (
             ball("copper-crystal")
             | {"lower": {"material": "copper-crystal", "layer": {"material": "TiN", "thickness": 1e-6}}},
-            "layers on a crystal",
+            "layers on a body whose material is a crystal",
         ),
         (
             ball("TiN") | {"lower": {"material": "TiN", "layer": {"material": "copper-crystal", "thickness": 1e-6}}},

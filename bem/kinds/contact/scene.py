@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from bem.adhesion.laws import AdhesionLaw
 from bem.errors import InputError
-from bem.scenes.common import Force, SmoothSurface, crystals, problem, refuse_relaxation, relaxing_bodies
+from bem.scenes.common import Force, SmoothSurface, problem, refuse_relaxation, relaxing_bodies, special_bodies
 from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
 from bem.scenes.tables.pressing import ContactControl, ContactOutputs, StressedScene
@@ -136,20 +136,23 @@ class ContactScene(StressedScene):
 
     kind: Literal["contact"] = key("Kind of computation.", "basic", default="contact")
     viscoelastic: ClassVar[bool] = True
-    anisotropic: ClassVar[bool] = True
+    special_surfaces: ClassVar[bool] = True
     contact: AdhesiveControl = key("Control of the contact: load, pressure, approach or gap.", "basic")
     outputs: ContactOutputs = key("Results besides pressure, gap and displacement.", "basic", default=ContactOutputs())
 
     @model_validator(mode="after")
-    def _crystals_without_friction(self) -> ContactScene:
-        for name in crystals(self):
+    def _special_bodies_pressed_alone(self) -> ContactScene:
+        for name, special in special_bodies(self).items():
             if self.contact.friction != 0:
-                raise problem(f"contact.friction on a crystal ({name}.material)", "friction = 0: pressure alone")
+                raise problem(f"contact.friction, and {name}.material {special}", "friction = 0: pressure alone")
             if self.outputs.below and self.outputs.body == name:
-                raise problem(f"stresses below the surface of a crystal ({name}.material)", "none, or the other body")
+                raise problem(
+                    f"stresses below the surface of {name}, whose material {special}", "none, or the other body"
+                )
+            stiffness = getattr(self, name).material.build().stiffness
             try:
-                body = getattr(self, name).material.build()
-                body.stiffness.check_mirror_symmetric()
+                if stiffness is not None:
+                    stiffness.check_mirror_symmetric()
             except InputError as error:
                 raise problem(f"{name}.material.{error.messages[0]}", "an orientation like those") from None
         return self
@@ -165,8 +168,8 @@ class ContactScene(StressedScene):
             refuse_relaxation(self, "contact.times, contact.sliding_speed or contact.rolling_speed with relaxation")
         if timed and (self.lower.stack or self.upper.stack):
             raise problem("bodies with layers that relax", "homogeneous bodies")
-        if timed and crystals(self):
-            raise problem("a body that relaxes on a crystal", "isotropic bodies")
+        for name, special in special_bodies(self).items() if timed else ():
+            raise problem(f"a body that relaxes on {name}, whose material {special}", "another material")
         if self.speeds is not None:
             moving = [
                 name

@@ -166,6 +166,9 @@ def _material(material: Material) -> str:
         normal = " ".join(f"{value:.3g}" for value in material.stiffness.normal)
         modulus = si(material.stiffness.plane_strain_modulus, "Pa")
         words = [f"{material.stiffness.crystal} crystal, surface across [{normal}], indentation modulus {modulus}"]
+    if material.surface_tension is not None:
+        length = si(material.elastocapillary_length, "m")
+        words.append(f"surface tension {si(material.surface_tension, 'N/m')}, elastocapillary length {length}")
     if material.hardness is not None:
         words.append(f"hardness {si(material.hardness, 'Pa')}")
     if material.yield_stress is not None:

@@ -7,6 +7,7 @@ forms. Verified in tests/scenes/test_refusals.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from bem.materials import contact_modulus
@@ -46,6 +47,10 @@ def _most(case: Case) -> tuple[float, str]:
     body is pressed to nothing at its uniaxial modulus, far above E* where Poisson's ratio is near half.
     """
     materials = [body.material for body in case.bodies.values()]
+    if case.grid is not None and any(m.surface_tension is not None for m in materials):
+        # a wave as long as the grid is stiffer by the tension
+        stiffer = 1 + max(m.elastocapillary_length for m in materials) * math.pi / min(case.grid.lengths)
+        return stiffer * contact_modulus(*materials), "the contact modulus with surface tension"
     if case.grid is not None and all(case.grid.periodic):
         uniaxial = [
             m.youngs_modulus * (1 - m.poissons_ratio) / ((1 + m.poissons_ratio) * (1 - 2 * m.poissons_ratio))
