@@ -27,7 +27,7 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -291,6 +291,16 @@ class ScaledConvolution:
 
 
 @dataclass(frozen=True)
+class _EvenPart:
+    """Spectra on a grid without their odd part."""
+
+    whole: Callable[[Grid], KernelSpectra]
+
+    def __call__(self, grid: Grid) -> KernelSpectra:
+        return replace(self.whole(grid), odd=None)
+
+
+@dataclass(frozen=True)
 class DisplacementOperator:
     """Callable: pressure (nx, ny) [Pa] -> normal surface displacement (nx, ny) [m], the sum over both bodies.
 
@@ -342,13 +352,17 @@ class DisplacementOperator:
 
     @property
     def symmetric(self) -> bool:
-        """True if friction does not couple into normal displacement."""
+        """True if friction does not couple into normal displacement; of `spectra_on`, if these have no odd part."""
+        if self.spectra_on is None:  # decided by the bodies: no spectrum is computed
+            return self.friction == 0 or not couples(self.bodies)
         return self._spectra.odd is None
 
     @cached_property
     def frictionless(self) -> DisplacementOperator:
-        """Operator of the same bodies without the coupling of friction; it shares this operator's count."""
-        return DisplacementOperator(self.grid, self.bodies, 0.0, self.count, self.weight, compliance=self.compliance)
+        """Operator of the same bodies, or of the even part of `spectra_on`, without the coupling of friction; it shares
+        this operator's count."""
+        spectra_on = None if self.spectra_on is None else _EvenPart(self.spectra_on)
+        return replace(self, friction=0.0, spectra_on=spectra_on)
 
     @property
     def mean_free(self) -> bool:

@@ -3,6 +3,7 @@
 import copy
 import pickle
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -161,6 +162,33 @@ def test_single_precision_twin_and_the_operator_without_friction():
     symmetric = op.frictionless.scaled().apply(pressure, np.empty(grid.shape)) * op.unit
     expected = displacement_operator(grid, Body(STEEL))(pressure)
     assert np.abs(symmetric - expected).max() <= 1e-14 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.4])
+def test_symmetry_is_known_without_spectra(friction):
+    op = displacement_operator(Grid((8, 8), (1e-6, 1e-6)), Body(STEEL), friction=friction)
+    assert op.symmetric == (friction == 0)
+    assert convolution.COUNT.normal == convolution.COUNT.tangential == 0
+
+
+def test_the_operator_without_friction_has_the_even_part_of_given_spectra():
+    """Spectra of a kernel twice as soft as the bodies, with an odd part: without it the displacement is twice theirs."""
+    grid = Grid((12, 10), (1e-6, 1e-6))
+    plain = displacement_operator(grid, Body(STEEL))
+    rubbed = displacement_operator(grid, Body(STEEL), friction=0.5)
+
+    def twice(other):
+        assert other == grid
+        return convolution.KernelSpectra(2 * rubbed._spectra.even, 2 * rubbed._spectra.odd, rubbed.unit)
+
+    op = replace(plain, spectra_on=twice)
+    assert not op.symmetric
+    assert op.frictionless.symmetric
+    assert op.frictionless.count is op.count
+    pressure = np.random.default_rng(3).uniform(0, 1, grid.shape)
+    expected = 2 * plain(pressure)
+    assert np.abs(op.frictionless(pressure) - expected).max() <= 1e-14 * np.abs(expected).max()
+    assert np.abs(op(pressure) - expected).max() > 0.01 * np.abs(expected).max()
 
 
 @pytest.mark.parametrize("shape", [(12, 15), (15, 12), (1, 12), (12, 1)])
