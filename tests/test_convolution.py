@@ -172,7 +172,7 @@ def test_symmetry_is_known_without_spectra(friction):
 
 
 def test_the_operator_without_friction_has_the_even_part_of_given_spectra():
-    """Spectra of a kernel twice as soft as the bodies, with an odd part: without it the displacement is twice theirs."""
+    """Spectra of a kernel twice as soft as the bodies, with an odd part: without it, twice their displacement."""
     grid = Grid((12, 10), (1e-6, 1e-6))
     plain = displacement_operator(grid, Body(STEEL))
     rubbed = displacement_operator(grid, Body(STEEL), friction=0.5)

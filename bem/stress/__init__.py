@@ -17,7 +17,8 @@ Figures of one contact (`stress_summary.summarise_stress`): steps 1 to 3 at ever
 Mises stress between points and depths, its depth, and the yielded area and volume. No depth is omitted. Cost: a few
 passes over each plane.
 
-Highest stresses of coatings (`layer_stresses`): of each layer and interface, at depths of `with_layer_depths`.
+Highest stresses of coatings (`layer_stresses`): of each layer and interface, at depths of `with_layer_depths`, with
+those at the edge of the contact and beyond free edges of the grid (`coating_maxima`).
 
 Two shorter ways to von Mises stress above a limit, which `bem.wear` uses:
 
@@ -32,7 +33,9 @@ against the closed forms of Hamilton and McEwen, in tests/frugality for memory, 
 finite elements.
 """
 
+from bem.stress.coating_maxima import CoatingMaxima, coating_maxima
 from bem.stress.connected_regions import ConnectedStress, clear_other_rows, connected_stress
+from bem.stress.edge_tension import EdgeTension, edge_tension
 from bem.stress.fields import subsurface_stress, von_mises, von_mises_field, von_mises_planes
 from bem.stress.layer_stresses import (
     DepthMaxima,
@@ -49,13 +52,17 @@ from bem.stress.von_mises_bound import von_mises_upper_bound
 
 __all__ = [
     "COUNT",
+    "CoatingMaxima",
     "ConnectedStress",
     "DepthMaxima",
+    "EdgeTension",
     "LayerStresses",
     "StressSummary",
     "clear_other_rows",
+    "coating_maxima",
     "connected_stress",
     "depth_maxima",
+    "edge_tension",
     "highest_principal",
     "layer_stresses",
     "set_stress_memory",

@@ -11,7 +11,7 @@ Verified in tests/stress/test_layer_stresses.py against the stresses of points a
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -117,16 +117,36 @@ def tension_beyond(
     residual stress of layers has no zz. The surroundings are one length of the grid wide, and thrice as wide again
     while the highest tension of a depth lies at their own edge.
     """
+    return _highest_beyond(pressure, grid, body, depths, friction, lambda stress: stress[2])
+
+
+def principal_beyond(
+    pressure: FloatArray, grid: Grid, body: Body, depths: FloatArray, friction: float = 0.0
+) -> FloatArray:
+    """Return the highest principal stress of each depth (nz,) [Pa] beyond the free edges of the grid, as
+    `tension_beyond`."""
+    return _highest_beyond(pressure, grid, body, depths, friction, highest_principal)
+
+
+def _highest_beyond(
+    pressure: FloatArray,
+    grid: Grid,
+    body: Body,
+    depths: FloatArray,
+    friction: float,
+    measure: Callable[[FloatArray], FloatArray],
+) -> FloatArray:
+    """Return the highest of a scalar (nz, nx, ny) of stresses (6, nz, nx, ny) beyond the free edges of the grid."""
     highest = np.full(len(depths), -np.inf)
     for _ in range(_WIDENINGS):
         pressure, grid, inside = _with_surroundings(pressure, grid)
-        across = subsurface_stress(pressure, grid, body, depths, friction=friction)[2]
-        across[:, inside[0], inside[1]] = -np.inf
-        highest = np.maximum(highest, across.max(axis=(1, 2)))
+        values = measure(subsurface_stress(pressure, grid, body, depths, friction=friction))
+        values[:, inside[0], inside[1]] = -np.inf
+        highest = np.maximum(highest, values.max(axis=(1, 2)))
         for axis, periodic in enumerate(grid.periodic, 1):
             if not periodic:
-                across = across[:, 1:-1] if axis == 1 else across[:, :, 1:-1]
-        if (across.max(axis=(1, 2)) >= highest).all():
+                values = values[:, 1:-1] if axis == 1 else values[:, :, 1:-1]
+        if (values.max(axis=(1, 2)) >= highest).all():
             break
     return highest
 

@@ -6,10 +6,11 @@ Balls, cylinders and rough flats on one to three layers of a third of a cell to 
 the body below, rubbed and not. References have four times the cells a side and the same surfaces, and four times the
 depths in every layer. The result is stored in `reports/results/coating_error_bars.json`.
 
-The row of `interface_max_tension` was chosen on seed 2611, where it covered 91 %. Seven of eight misses on two seeds
-were contacts on free grids whose tension is highest beyond the grid's edge, which no cell of either grid sees. The
-figure now has the tension of the surroundings (`bem.stress.with_tension_beyond`), in the references too; the rules are
-as they were, and the seed is one that nothing was chosen on.
+The rows of the tensions were chosen on the seeds 90417 and 5150. On 90417 the highest tension of points missed, at the
+surface, a fifth of that of four times the cells, and that one a tenth of the limit: both have a cusp at the edge of the
+contact. Since then the figures have the tension at the edge (`bem.stress.edge_tension`), the principal stress beyond
+free edges of the grid, and the tension of shallow interfaces without waves of two cells (`bem.stress.coating_maxima`),
+in the references too. The seed is one that nothing was chosen on.
 """
 
 from __future__ import annotations
@@ -27,11 +28,10 @@ from bem.grid import FloatArray
 from bem.stress import (
     LayerStresses,
     StressSummary,
-    depth_maxima,
+    coating_maxima,
     layer_stresses,
     summarise_stress,
     with_layer_depths,
-    with_tension_beyond,
 )
 from reports.experiments import contact_error_bars
 from reports.experiments.contact_error_bars import FINER, Problem
@@ -60,9 +60,10 @@ class Coated:
             case.solution.pressure, case.grid, body, depths, friction=self.friction, components=True
         )
         assert below.stress is not None
-        maxima = depth_maxima(below.stress, below.von_mises, depths, body)
-        maxima = with_tension_beyond(maxima, case.solution.pressure, case.grid, body, self.friction)
-        return below, layer_stresses(maxima, body)
+        maxima = coating_maxima(
+            below.stress, below.von_mises, depths, case.solution.pressure, case.grid, body, self.friction
+        )
+        return below, layer_stresses(maxima.highest, body)
 
 
 def draw(rng: np.random.Generator) -> Coated:
@@ -100,7 +101,7 @@ def _known(bars: FloatArray) -> list[float | None]:
     return [None if math.isnan(bar) else bar for bar in bars.tolist()]
 
 
-EXPERIMENT = Experiment("coating_error_bars", draw, solve, cases=60, seed=7193)
+EXPERIMENT = Experiment("coating_error_bars", draw, solve, cases=60, seed=48611)
 
 if __name__ == "__main__":
     main(EXPERIMENT)

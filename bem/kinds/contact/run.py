@@ -137,16 +137,17 @@ def _coating_fields(
     scene: ContactScene, grid: Grid, pressure: FloatArray, below: StressSummary | None
 ) -> dict[str, Any]:
     """Fields of the record on layers and interfaces of the stressed body; none without layers or components."""
-    from bem.stress import depth_maxima, layer_stresses, with_tension_beyond
+    from bem.stress import coating_maxima, layer_stresses
 
     body, sign = scene.stressed()
     if below is None or below.stress is None or not body.layers:
         return {}
-    maxima = depth_maxima(below.stress, below.von_mises, below.depths, body)
-    maxima = with_tension_beyond(maxima, pressure, grid, body, sign * scene.contact.friction)
+    maxima = coating_maxima(
+        below.stress, below.von_mises, below.depths, pressure, grid, body, sign * scene.contact.friction
+    )
     residual = np.array(body.residual_stresses[:-1])
     stated = {"layer_residual_stress": residual} if residual.any() else {}
-    stresses = layer_stresses(maxima, body)
+    stresses = layer_stresses(maxima.highest, body)
     strengths = [np.nan if material.yield_stress is None else material.yield_stress for material in body.media]
     beneath = [float(below.von_mises[k].max()) for k in np.flatnonzero(below.depths > body.interfaces[-1])]
     substrate = {}
