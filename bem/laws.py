@@ -28,6 +28,7 @@ FAMILIES = {
     "density_law": "bem.lubrication.density",
     "shear_law": "bem.lubrication.shear",
     "boundary_friction": "bem.friction.boundary",
+    "slip_friction": "bem.tangential.friction_laws",
     "adhesion": "bem.adhesion.laws",
     "criterion": "bem.wear.criterion",
     "removal": "bem.wear.removal",

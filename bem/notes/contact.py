@@ -32,6 +32,14 @@ CONTACT_AT_EDGE = define(
         ),
     },
 )
+FRICTION_NOT_UNIQUE = define(
+    "friction-not-unique",
+    CAUTION,
+    "Friction falls so steeply with the slip speed that several states may exist.",
+    "The bound of a cell falls {times:.1f} times as fast with its slip as the bodies let its traction fall: it may"
+    " stick or slip, and which of the two depends on the past.",
+    "Take a larger half_speed, a smaller difference of the coefficients, or compare runs on other grids.",
+)
 CONTACT_UNRESOLVED = define(
     "contact-unresolved",
     CAUTION,

@@ -59,6 +59,72 @@ class PushedBall:
 
 
 @dataclass(frozen=True)
+class LimitedBall:
+    """A round Hertz contact that is pushed, whose traction is at most the smaller of friction x pressure and a shear
+    strength. Sideways slip is left out, so that it is exact for nu = 0.
+
+    Rigid discs of radius t that are shifted by (pi/4) compliance w(t) dt add up to no slip below the least of them;
+    that the traction beyond is its bound g is Abel's equation, w = -(2/pi) d/dt of the integral of
+    r g / sqrt(r^2 - t^2) from t to a. An infinite friction is the law of Tresca, with the traction of Dugdale's crack.
+
+    contact_radius [m], load [N], friction, shear_limit [Pa]; compliance [1/Pa] is the sum of (2 - nu)/G of both bodies.
+    """
+
+    contact_radius: float
+    load: float
+    friction: float
+    shear_limit: float
+    compliance: float
+
+    @property
+    def limited_radius(self) -> float:
+        """Return the radius [m] within which the shear strength is less than friction x pressure."""
+        peak = 1.5 * self.load / (math.pi * self.contact_radius**2)
+        return self.contact_radius * math.sqrt(max(1 - (self.shear_limit / (self.friction * peak)) ** 2, 0.0))
+
+    def _density(self, t: float) -> float:
+        """Return w [Pa]."""
+        a, inner = self.contact_radius, self.limited_radius
+        if math.isinf(self.friction):
+            return 2 / math.pi * self.shear_limit * t / math.sqrt(a * a - t * t)
+        slope = self.friction * 1.5 * self.load / (math.pi * a**3)
+        if inner <= t:
+            return slope * t
+        return 2 / math.pi * slope * t * math.atan(math.sqrt((a * a - inner * inner) / (inner * inner - t * t)))
+
+    def _integral(self, stick: float, power: int) -> float:
+        """Return the integral of t^power w(t) from the stick radius to the edge.
+
+        In parts that end where the bound changes; t = end sin(angle) removes a root at the end of a part.
+        """
+        ends = sorted({max(stick, self.limited_radius), self.contact_radius})
+        total, start = 0.0, stick
+        for end in ends:
+
+            def part(angle: float, end: float = end) -> float:
+                t = end * math.sin(angle)
+                return t**power * self._density(t) * end * math.cos(angle)
+
+            total += float(quad(part, math.asin(start / end), 0.5 * math.pi, epsabs=0, epsrel=1e-9)[0])
+            start = end
+        return total
+
+    def shift(self, stick: float) -> float:
+        """Return the shift [m] with which a circle of radius `stick` [m] still sticks."""
+        return 0.25 * math.pi * self.compliance * self._integral(stick, 0)
+
+    def force(self, stick: float) -> float:
+        """Return the force [N] with which a circle of radius `stick` [m] still sticks; all slips at zero."""
+        return 2 * math.pi * self._integral(stick, 1)
+
+    def traction(self, r: ArrayLike, stick: float) -> FloatArray:
+        """Return the traction [Pa] along the force under the law of Tresca, where the stick radius is `stick` [m]."""
+        at = np.asarray(r, dtype=np.float64)
+        held = np.sqrt(np.maximum(stick**2 - at**2, 0.0) / (self.contact_radius**2 - stick**2))
+        return np.asarray(self.shear_limit * (1 - 2 / math.pi * np.arctan(held)), dtype=np.float64)
+
+
+@dataclass(frozen=True)
 class TwistedBall:
     """A round Hertz contact under a moment about its axis: `compliance` [1/Pa] is the sum of 1/G of both bodies.
 

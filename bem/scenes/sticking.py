@@ -19,6 +19,7 @@ from bem.scenes.context import Context, tell
 from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, grid_map
 from bem.scenes.tables.pressing import StressedScene
+from bem.tangential.friction_laws import SlipFriction
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
@@ -69,12 +70,15 @@ class StickRecord(GridRecord):
     traction_x: Annotated[FloatArray, grid_map("Pa", "traction on the lower body along x")]
     traction_y: Annotated[FloatArray, grid_map("Pa", "traction on the lower body along y")]
     stick_state: Annotated[FloatArray, grid_map("1", "0 open, 1 sticks, 2 slips")]
+    traction_bound: Annotated[FloatArray | None, grid_map("Pa", "largest traction without slip")] = None
     depth: Annotated[FloatArray | None, Series(("depth",), "m", "depth below the surface")] = None
     von_mises: Annotated[FloatArray | None, Series(("depth", "x", "y"), "Pa", "von Mises stress")] = None
     contact_residual: Annotated[float, Figure("", "relative residual of the contact", unjudged=True)]
 
 
-def stuck(grid: Grid, contact: ContactSolution, found: TangentialSolution) -> dict[str, Any]:
+def stuck(
+    grid: Grid, contact: ContactSolution, found: TangentialSolution, friction: float | SlipFriction
+) -> dict[str, Any]:
     """The fields of `StickRecord`, but for stresses."""
     return {
         "load": contact.load,
@@ -83,8 +87,29 @@ def stuck(grid: Grid, contact: ContactSolution, found: TangentialSolution) -> di
         "traction_x": found.traction[0],
         "traction_y": found.traction[1],
         "stick_state": np.where(contact.pressure > 0, np.where(found.slip.any(axis=0), 2.0, 1.0), 0.0),
+        "traction_bound": static_bound(friction, contact, grid) if isinstance(friction, SlipFriction) else None,
         "contact_residual": contact.residual,
     }
+
+
+def friction_limit(friction: float | SlipFriction, site: Site) -> float:
+    """Return the largest tangential force [N] that the contact carries: friction x load, or the sum of the law's bounds
+    without slip."""
+    if not isinstance(friction, SlipFriction):
+        return friction * site.contact.load
+    return float(static_bound(friction, site.contact, site.grid).sum()) * site.grid.cell_area
+
+
+def static_bound(friction: SlipFriction, contact: ContactSolution, grid: Grid) -> FloatArray:
+    """Return the largest traction without slip (nx, ny) [Pa] by a law of friction."""
+    from bem.tangential.problem import friction_bound
+
+    return friction_bound(contact, grid, friction)[1]
+
+
+def friction_words(friction: float | SlipFriction) -> str:
+    """Return a coefficient or a law in words."""
+    return f"friction {friction:g}" if isinstance(friction, float) else f"friction law {friction.name}"
 
 
 def pressed_together(scene: StressedScene, context: Context) -> Site:

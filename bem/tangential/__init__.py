@@ -27,7 +27,10 @@ discs abs(q) <= g, where b is the imposed displacement:
 
 Steady rolling (`rolling`; Kalker 1990) has no energy. Newton's method with GMRES solves q = P(q - t s) for the slip s
 over one cell, where P is the same projection; the creepage is the multiplier of a given force. Cost: two to three
-convolutions per cell along the contact.
+convolutions per cell along the contact. `transient_rolling` goes there in steps of a cell, each of them a convex
+problem for `slip_newton`.
+
+`friction_laws` has the bound g: friction x pressure, a shear strength, or friction that falls with the slip speed.
 
 Contact and partial slip together (`coupled_slip`; Spence 1968): a fixed-point iteration between `bem.contact` and steps
 1 to 6, because the tractions of bodies that differ change the gap, and so the pressure. Steps 1 to 6 alone couple one
@@ -50,14 +53,17 @@ from bem.tangential.operator import TangentialOperator, tangential_operator
 from bem.tangential.partial_slip import solve_partial_slip, tangential_stiffness
 from bem.tangential.rolling import solve_rolling
 from bem.tangential.solution import TangentialSolution
+from bem.tangential.transient_rolling import RollingHistory, solve_transient_rolling
 
 __all__ = [
     "CoupledSolution",
+    "RollingHistory",
     "TangentialOperator",
     "TangentialSolution",
     "solve_coupled_slip",
     "solve_partial_slip",
     "solve_rolling",
+    "solve_transient_rolling",
     "tangential_operator",
     "tangential_stiffness",
 ]

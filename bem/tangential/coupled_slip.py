@@ -27,6 +27,7 @@ from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.notes import Note
 from bem.representation import readable
+from bem.tangential.friction_laws import SlipFriction
 from bem.tangential.operator import tangential_operator
 from bem.tangential.partial_slip import check_step, solve_step
 from bem.tangential.problem import check_settings
@@ -69,7 +70,7 @@ def solve_coupled_slip(
     grid: Grid,
     bodies: Body | tuple[Body, Body],
     *,
-    friction: float | FloatArray,
+    friction: float | FloatArray | SlipFriction,
     load: float | None = None,
     approach: float | None = None,
     mean_gap: float | None = None,

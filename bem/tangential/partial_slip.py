@@ -19,12 +19,14 @@ from bem.materials import Body
 from bem.notes import Note
 from bem.notes.contact import PRESSING_PATH
 from bem.tangential.certificate import certify, stick_area
+from bem.tangential.friction_laws import SlipFriction
 from bem.tangential.initial_tractions import jaeger_start, start_from_coarser
 from bem.tangential.operator import TangentialOperator, tangential_operator
 from bem.tangential.problem import (
     SAFETY,
     SlipProblem,
     check_force,
+    check_no_slip_speed,
     check_settings,
     check_vectors,
     displacement_scale,
@@ -48,7 +50,7 @@ def solve_partial_slip(
     grid: Grid,
     bodies: Body | tuple[Body, Body],
     *,
-    friction: float | FloatArray,
+    friction: float | FloatArray | SlipFriction,
     force: Sequence[float] | None = None,
     shift: Sequence[float] | None = None,
     rotation: float = 0.0,
@@ -66,7 +68,7 @@ def solve_partial_slip(
     ----------
     contact : a normal contact, or its pressure (nx, ny) [Pa].
     grid, bodies : as for `displacement_operator`: one body (the other rigid) or (first, second).
-    friction : coefficient, a number or a map (nx, ny), not negative.
+    friction : coefficient, a number or a map (nx, ny), not negative; or a law of `bem.tangential.friction_laws`.
     force : (Fx, Fy) [N], total traction on the first body.
     shift : (sx, sy) [m]; exactly one of force and shift. Signs: see
         `TangentialSolution`.
@@ -122,7 +124,7 @@ def check_step(
     grid: Grid,
     bodies: Body | tuple[Body, Body],
     *,
-    friction: float | FloatArray,
+    friction: float | FloatArray | SlipFriction,
     force: Sequence[float] | None,
     shift: Sequence[float] | None,
     rotation: float,
@@ -136,6 +138,7 @@ def check_step(
     InfeasibleError : a force that friction cannot carry.
     """
     operator = tangential_operator(grid, bodies)
+    check_no_slip_speed(friction, "partial slip")
     pressure, bound = friction_bound(contact, grid, friction)
     messages = []
     if (force is None) == (shift is None):

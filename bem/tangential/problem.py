@@ -14,6 +14,7 @@ import numpy as np
 from bem.contact import ContactSolution
 from bem.errors import InfeasibleError, InputError
 from bem.grid import FloatArray, Grid
+from bem.tangential.friction_laws import SlipFriction
 from bem.tangential.operator import TangentialOperator
 
 SAFETY = 0.9
@@ -76,10 +77,48 @@ def check_vectors(
     return arrays[0], arrays[1]
 
 
+@dataclass(frozen=True)
+class LocalFriction:
+    """Law of friction on the cells in contact.
+
+    pressure : (n,) [Pa]. filled : contact area over that of its cells. The fraction `filled` of every cell touches,
+    under a pressure that is higher in proportion, so that the largest force under a constant shear strength is the
+    strength times the contact area, of second order; friction x pressure does not depend on `filled`.
+    """
+
+    law: SlipFriction
+    pressure: FloatArray
+    filled: float
+
+    @classmethod
+    def of(cls, law: SlipFriction, contact: ContactSolution | FloatArray, pressure: FloatArray) -> LocalFriction:
+        """Collect the cells in contact of a pressure (nx, ny) [Pa]; `filled` is 1 if the contact is a pressure only."""
+        filled = 1.0
+        if isinstance(contact, ContactSolution) and contact.counted_area > 0 and contact.contact_area > 0:
+            filled = contact.contact_area / contact.counted_area
+        return cls(law, pressure[pressure > 0], filled)
+
+    def bound(self, slip_speed: FloatArray) -> FloatArray:
+        """Return the largest traction (n,) [Pa] at slip speeds (n,) [m/s].
+
+        Raises
+        ------
+        InputError : a bound that is negative, not finite, or of another shape.
+        """
+        bound = np.asarray(self.law.traction_bound(self.pressure / self.filled, slip_speed), dtype=np.float64)
+        if bound.shape != self.pressure.shape or not (np.isfinite(bound).all() and (bound >= 0).all()):
+            raise InputError(f"friction: the law {self.law.name!r} must give finite bounds >= 0, one for each cell")
+        return self.filled * bound
+
+    def slope(self, slip_speed: FloatArray) -> FloatArray:
+        """Return the derivative of the bound with respect to the slip speed, (n,) [Pa s/m]."""
+        return self.filled * np.asarray(self.law.slope(self.pressure / self.filled, slip_speed), dtype=np.float64)
+
+
 def friction_bound(
-    contact: ContactSolution | FloatArray, grid: Grid, friction: float | FloatArray
+    contact: ContactSolution | FloatArray, grid: Grid, friction: float | FloatArray | SlipFriction
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the pressure [Pa] and friction x pressure [Pa], both (nx, ny).
+    """Return the pressure [Pa] and the largest traction without slip [Pa], both (nx, ny).
 
     Raises
     ------
@@ -90,6 +129,12 @@ def friction_bound(
     messages = []
     if (pressure < 0).any():
         messages.append(f"contact: pressures must not be negative; the least is {float(pressure.min())!r} Pa")
+    if isinstance(friction, SlipFriction):
+        if messages:
+            raise InputError(messages)
+        local, bound = LocalFriction.of(friction, contact, pressure), np.zeros(grid.shape)
+        bound[pressure > 0] = local.bound(np.zeros_like(local.pressure))
+        return pressure, bound
     factor = np.asarray(friction, dtype=np.float64)
     if factor.shape not in ((), grid.shape):
         messages.append(f"friction: shape {factor.shape!r} must be a number or a map of shape {grid.shape!r}")
@@ -98,6 +143,15 @@ def friction_bound(
     if messages:
         raise InputError(messages)
     return pressure, np.ascontiguousarray(np.broadcast_to(factor, grid.shape) * pressure)
+
+
+def check_no_slip_speed(friction: float | FloatArray | SlipFriction, where: str) -> None:
+    """Refuse a law that depends on the slip speed (InputError); `where` names the computation."""
+    if isinstance(friction, SlipFriction) and friction.depends_on_speed:
+        raise InputError(
+            f"friction: the law {friction.name!r} depends on the slip speed, which {where} does not have; choose a law "
+            "without speed, such as 'coulomb' or 'tresca'"
+        )
 
 
 def check_force(force: FloatArray, bound: FloatArray, grid: Grid) -> None:

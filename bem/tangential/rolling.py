@@ -17,6 +17,11 @@ with that force; the creepage is its Lagrange multiplier and finite at every ste
 2. Solve for the Newton step with GMRES; the derivative of P is known in closed form.
 3. Halve the step until the projection residual falls. If no step is short enough, the status says "stalled".
 
+Where the bound falls with the slip speed (`friction_laws`), g belongs to the slip of the same tractions, and the
+derivative of P has that of g. Several states may then have one creepage: where a cell's bound falls faster than its own
+stiffness lets the traction fall, it can stick or slip (a note says so). The solution is the state that Newton's method
+reaches from that of the static coefficient.
+
 Cost: one convolution per GMRES iteration. The linear operator is small for waves across the rolling, so the number of
 convolutions grows with the number of cells along it.
 """
@@ -35,12 +40,17 @@ from bem.contact import ContactSolution
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
+from bem.notes import Note
+from bem.notes.contact import FRICTION_NOT_UNIQUE
 from bem.tangential.certificate import certify
 from bem.tangential.friction_discs import project_to_friction_discs, project_with_force
+from bem.tangential.friction_laws import SlipFriction
 from bem.tangential.operator import TangentialOperator, tangential_operator
 from bem.tangential.problem import (
     SAFETY,
+    LocalFriction,
     check_force,
+    check_no_slip_speed,
     check_settings,
     check_vectors,
     displacement_scale,
@@ -68,10 +78,11 @@ def solve_rolling(
     grid: Grid,
     bodies: Body | tuple[Body, Body],
     *,
-    friction: float | FloatArray,
+    friction: float | FloatArray | SlipFriction,
     creepage: Sequence[float] = (0.0, 0.0),
     spin: float = 0.0,
     force: Sequence[float] | None = None,
+    speed: float | None = None,
     tolerance: float = 1e-8,
     max_iterations: int = 200,
 ) -> TangentialSolution:
@@ -85,7 +96,8 @@ def solve_rolling(
     spin : angular velocity of the first body against the second about the normal (from x to y) over the rolling
         velocity [1/m], about the grid's centre.
     force : (Fx, Fy) [N], total traction on the first body; the creepage is then part of the solution. Not together
-        with a creepage.
+        with a creepage, nor with friction that depends on the slip speed, where several creepages have one force.
+    speed : rolling velocity [m/s], for friction that depends on the slip speed.
     tolerance : bound on the residual, see `TangentialSolution`.
     max_iterations : limit of the Newton steps.
 
@@ -96,21 +108,26 @@ def solve_rolling(
     """
     operator = tangential_operator(grid, bodies)
     check_settings(0.0, tolerance, max_iterations)
+    check_rolling_speed(friction, speed, force)
     pressure, bound = friction_bound(contact, grid, friction)
+    falling = None
+    if isinstance(friction, SlipFriction) and friction.depends_on_speed:
+        assert speed is not None
+        falling = FallingBound(LocalFriction.of(friction, contact, pressure), speed / grid.spacing[0])
     creep, total = _check_creepage(grid, bound, creepage, spin, force)
     inside = slice(None)
-    if not grid.periodic[0] and (bound[0].any() or bound[-1].any()):  # u(x + dx) must exist ahead of every cell
+    if reaches_the_ends(grid, bound):
         inside = slice(1, -1)
-        grid = Grid((grid.shape[0] + 2, grid.shape[1]), grid.spacing, periodic=grid.periodic)
+        grid = lengthened(grid)
         operator = tangential_operator(grid, bodies)
         pressure, bound = (np.pad(field, ((1, 1), (0, 0))) for field in (pressure, bound))
     under_pressure = operator.displacement_under_pressure(pressure)
-    x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
-    rigid_slip = np.empty((2, *grid.shape))
-    rigid_slip[0] = (creep[0] - spin * y[None, :]) * grid.spacing[0]
-    rigid_slip[1] = (creep[1] + spin * x[:, None]) * grid.spacing[0]
-    problem = RollingProblem(operator, bound, rigid_slip + slip_over_cell(grid, under_pressure), total)
+    imposed_slip = rigid_slip(grid, creep, spin) + slip_over_cell(grid, under_pressure)
+    problem = RollingProblem(operator, bound, imposed_slip, total)
     result = _solve(problem, SAFETY * tolerance, max_iterations)
+    if falling is not None:
+        problem = replace(problem, falling=falling)
+        result = _solve(problem, SAFETY * tolerance, max_iterations, result)
     failed = Status.MAX_ITERATIONS if result.iterations >= max_iterations else Status.STALLED
     solution = _solution(problem, result, under_pressure, creep * grid.spacing[0], tolerance, failed)
     fields = {name: getattr(solution, name)[:, inside] for name in ("traction", "displacement", "slip")}
@@ -136,6 +153,44 @@ def _check_creepage(
     return creep, total / grid.cell_area
 
 
+def check_rolling_speed(
+    friction: float | FloatArray | SlipFriction, speed: float | None, force: Sequence[float] | None
+) -> None:
+    """Refuse a speed that is not positive, and friction that depends on the slip speed without a speed or with a force.
+
+    Raises
+    ------
+    InputError : one message for each.
+    """
+    if speed is not None and not (math.isfinite(speed) and speed > 0):
+        raise InputError(f"speed: {speed!r} must be positive and finite [m/s]")
+    if not (isinstance(friction, SlipFriction) and friction.depends_on_speed):
+        return
+    if speed is None:
+        raise InputError(f"speed: the friction law {friction.name!r} needs the rolling speed [m/s]")
+    if force is not None:
+        check_no_slip_speed(friction, "rolling under a given force (several creepages may have it)")
+
+
+def reaches_the_ends(grid: Grid, bound: FloatArray) -> bool:
+    """Return True if cells with friction lie at a free end along the rolling: u(x + dx) must exist ahead of each."""
+    return not grid.periodic[0] and bool(bound[0].any() or bound[-1].any())
+
+
+def lengthened(grid: Grid) -> Grid:
+    """Return the grid with one cell more at each end along the rolling."""
+    return Grid((grid.shape[0] + 2, grid.shape[1]), grid.spacing, periodic=grid.periodic)
+
+
+def rigid_slip(grid: Grid, creepage: FloatArray, spin: float) -> FloatArray:
+    """Return the slip over a cell by a creepage (2,) and a spin [1/m] about the grid's centre, (2, nx, ny) [m]."""
+    x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
+    slip = np.empty((2, *grid.shape))
+    slip[0] = (creepage[0] - spin * y[None, :]) * grid.spacing[0]
+    slip[1] = (creepage[1] + spin * x[:, None]) * grid.spacing[0]
+    return slip
+
+
 def slip_over_cell(grid: Grid, displacement: FloatArray) -> FloatArray:
     """Return u(x) - u(x + dx) on the grid, (2, nx, ny) [m]; zero at a free end, which no contact reaches."""
     ahead = np.roll(displacement, -1, axis=1)
@@ -145,19 +200,40 @@ def slip_over_cell(grid: Grid, displacement: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True)
+class FallingBound:
+    """Bound that falls with the slip speed, on the n cells in contact.
+
+    rate : slip speed over the slip over a cell, the rolling velocity over the length of a cell [1/s].
+    """
+
+    friction: LocalFriction
+    rate: float
+
+    def bound(self, slip: FloatArray) -> FloatArray:
+        """Return the bound (n,) [Pa] at a slip over a cell (2, n) [m]."""
+        return self.friction.bound(self.rate * np.hypot(*slip))
+
+    def slope(self, slip: FloatArray) -> FloatArray:
+        """Return the derivative of the bound with respect to the size of the slip over a cell, (n,) [Pa/m]."""
+        return self.rate * self.friction.slope(self.rate * np.hypot(*slip))
+
+
+@dataclass(frozen=True)
 class RollingProblem:
     """Steady rolling on one grid.
 
-    bound : (nx, ny), friction x pressure [Pa].
+    bound : (nx, ny), friction x pressure [Pa]; that without slip if it falls with the slip speed.
     imposed_slip : (2, nx, ny), slip over a cell without tractions: by creepage, spin and pressure [m].
     traction_sum : (2,), sum of the tractions over the cells, the force over the area of a cell [Pa]; None if the
         creepage is part of `imposed_slip`.
+    falling : bound that falls with the slip speed; None if it does not.
     """
 
     operator: TangentialOperator
     bound: FloatArray
     imposed_slip: FloatArray
     traction_sum: FloatArray | None
+    falling: FallingBound | None = None
 
 
 @dataclass(frozen=True)
@@ -178,6 +254,7 @@ class _State:
     trial : (2, n) [Pa], q - t s plus the offset.
     offset : (2,) [Pa], minus t x the slip over a cell by the creepage of the force.
     projection_residual : (2, n) [Pa], q less the projection of `trial`.
+    bound : (n,) [Pa], at the slip.
     """
 
     traction: FloatArray
@@ -185,6 +262,7 @@ class _State:
     trial: FloatArray
     offset: FloatArray
     projection_residual: FloatArray
+    bound: FloatArray
 
 
 @dataclass(frozen=True)
@@ -212,18 +290,23 @@ class _ReducedRolling:
         trial = traction - self.stiffness * slip
         allowed = np.empty_like(trial)
         offset = np.zeros(2)
+        bound = self.bound if self.problem.falling is None else self.problem.falling.bound(slip)
         if self.problem.traction_sum is None:
-            project_to_friction_discs(trial, self.bound, allowed)
+            project_to_friction_discs(trial, bound, allowed)
         else:
-            offset = project_with_force(trial, self.bound, self.problem.traction_sum, allowed)
-        return _State(traction, slip, trial + offset[:, None], offset, traction - allowed)
+            offset = project_with_force(trial, bound, self.problem.traction_sum, allowed)
+        return _State(traction, slip, trial + offset[:, None], offset, traction - allowed, bound)
 
     def jacobian(self, state: _State) -> Callable[[FloatArray], FloatArray]:
         """Return the map from a change of the tractions (2 n,) to the change of the projection residual (2 n,)."""
         length = np.hypot(*state.trial)
-        slips = length > self.bound
+        slips = length > state.bound
         normal = np.where(slips, state.trial / np.where(slips, length, 1.0), 0.0)
-        ratio = np.where(slips, self.bound / np.where(slips, length, 1.0), 1.0)
+        ratio = np.where(slips, state.bound / np.where(slips, length, 1.0), 1.0)
+        fall: FloatArray | None = None
+        if self.problem.falling is not None:  # derivative of the bound with respect to the slip, (2, n) [Pa/m]
+            size = np.hypot(*state.slip)
+            fall = self.problem.falling.slope(state.slip) * state.slip / np.where(size > 0, size, 1.0)
         inverse: FloatArray | None = None
         if self.problem.traction_sum is not None:  # inverse of the derivative of the force by a uniform offset
             mixed = -float((ratio * normal[0] * normal[1]).sum())
@@ -235,7 +318,10 @@ class _ReducedRolling:
 
         def apply(change: FloatArray) -> FloatArray:
             traction = np.asarray(change).reshape(2, -1)
-            allowed = projected(traction - self.stiffness * self.elastic_slip(traction))
+            slip = self.elastic_slip(traction)
+            allowed = projected(traction - self.stiffness * slip)
+            if fall is not None:
+                allowed += normal * (fall * slip).sum(0)
             if inverse is not None:
                 offset = inverse @ allowed.sum(1)
                 allowed -= projected(np.broadcast_to(offset[:, None], allowed.shape))
@@ -252,12 +338,14 @@ class _ReducedRolling:
         if self.problem.traction_sum is None:
             return True
         inside = np.empty_like(state.traction)
-        project_to_friction_discs(state.traction, self.bound, inside)
+        project_to_friction_discs(state.traction, state.bound, inside)
         return float(np.abs(inside.sum(1) - self.problem.traction_sum).max()) <= tolerance * float(self.bound.sum())
 
 
-def _solve(problem: RollingProblem, tolerance: float, limit: int) -> _RollingResult:
-    """Iterate from tractions of zero; under a force from the admissible tractions nearest to full sliding."""
+def _solve(
+    problem: RollingProblem, tolerance: float, limit: int, start: _RollingResult | None = None
+) -> _RollingResult:
+    """Iterate from `start`, or from tractions of zero; under a force from the tractions nearest to full sliding."""
     cells = problem.bound > 0
     if not cells.any():
         return _RollingResult(np.zeros((2, 0)), np.zeros(2), 0)
@@ -267,6 +355,8 @@ def _solve(problem: RollingProblem, tolerance: float, limit: int) -> _RollingRes
     if problem.traction_sum is not None and reduced.imposed_slip.any():
         traction = -state.projection_residual
         state = reduced.project(traction, reduced.imposed_slip + reduced.elastic_slip(traction))
+    if start is not None:
+        state = reduced.project(start.traction, imposed_slip + reduced.elastic_slip(start.traction))
     iterations = 0
     while iterations < limit and not reduced.converged(state, tolerance):
         iterations += 1
@@ -316,6 +406,13 @@ def _solution(
     project_to_friction_discs(result.traction, bound[cells], allowed)
     traction[:, cells] = allowed
     elastic = operator.apply(traction)
+    notes: tuple[Note, ...] = ()
+    if problem.falling is not None and cells.any():  # the bound is that of the slip of the returned tractions
+        moved = (imposed_slip + slip_over_cell(grid, elastic))[:, cells]
+        bound = np.zeros_like(bound)
+        bound[cells] = problem.falling.bound(moved)
+        steepest = -float(problem.falling.slope(moved).min()) / operator.stiffness
+        notes = (FRICTION_NOT_UNIQUE(times=steepest),) if steepest > 1 else ()
     if problem.traction_sum is not None:
         creep = result.creep
         imposed_slip = imposed_slip + creep[:, None, None]
@@ -341,6 +438,7 @@ def _solution(
         convolutions=operator.count.weighted,
         iterations=result.iterations,
         status=Status.CONVERGED if certificate.residual <= tolerance else failed,
+        notes=notes,
     )
 
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from bem.grid import FloatArray, Grid
 from bem.materials import Body, Material
-from bem.reference_solutions.partial_slip import PushedBall, RollingCylinder, TwistedBall
-from bem.tangential import TangentialSolution, solve_partial_slip, solve_rolling
+from bem.reference_solutions.partial_slip import LimitedBall, PushedBall, RollingCylinder, TwistedBall
+from bem.reference_solutions.rolling_cylinder import FallingRollingCylinder, TransientRollingCylinder
+from bem.tangential import TangentialSolution, solve_partial_slip, solve_rolling, solve_transient_rolling
+from bem.tangential.friction_laws import CoulombTrescaFriction, RationallyFallingFriction, TrescaFriction
 from bem.verification.closed_forms import curve
 from bem.verification.rows import Curve, Gate
 
@@ -90,11 +94,110 @@ def rolling_cylinder() -> list[Curve]:
     ]
 
 
+def shear_limited_ball() -> list[Curve]:
+    """Shift and force at which a circle of 0.6 of the radius still sticks; nu = 0."""
+    grid, r, pressure, load = _ball(128)
+    cork = Material("cork", youngs_modulus=2.0, poissons_ratio=0.0)
+    reason = "58 cells over the radius; the bound ends at the edge of contact by whole cells"
+    curves, stick = [], 0.6
+    for law, friction in ((TrescaFriction(0.1), math.inf), (CoulombTrescaFriction(FRICTION, 0.2), FRICTION)):
+        exact = LimitedBall(1.0, load, friction, law.shear_limit, 4.0)
+        bodies = (Body(cork), Body(cork))
+        found = solve_partial_slip(pressure, grid, bodies, friction=law, shift=(exact.shift(stick), 0.0))
+        force = float(found.force[0])
+        curves.append(curve("force", law.name, "a^2 p0", np.zeros(3), force, exact.force(stick), 1e-3, reason))
+        if math.isinf(friction):
+            inside = (r < 0.95) & (np.abs(r - stick) > 2.5 * grid.spacing[0])
+            line = np.column_stack([r[inside], 0 * r[inside], 0 * r[inside]])
+            traction = found.traction[0][inside]
+            want = exact.traction(r[inside], stick)
+            curves.append(
+                curve("stress: traction", "away from the edge of stick", "p0", line, traction, want, 1e-2, reason)
+            )
+    return curves
+
+
+def rolling_with_falling_friction() -> list[Curve]:
+    """Force over load at two creepages, where half of the contact sticks and where all slips; against series."""
+    cells, half, radius, speed = 500, 1e-4, 1e-2, 4.0
+    steel = Material("steel", youngs_modulus=2.0, poissons_ratio=0.3)
+    grid = Grid((cells, 1), (2.2 * half / cells, 1e-3), periodic=(False, True))
+    x = grid.x - grid.x.mean()
+    peak = half * steel.plane_strain_modulus / (4 * radius)
+    pressure = peak * np.sqrt(np.maximum(1 - (x / half) ** 2, 0.0))[:, None]
+    total = float(pressure.sum()) * grid.cell_area
+    law = RationallyFallingFriction(FRICTION, 0.5 * FRICTION, 0.02)
+
+    def coefficient(slip: FloatArray) -> FloatArray:
+        return law.traction_bound(np.ones_like(slip), speed * slip)
+
+    series = FallingRollingCylinder(half, peak, steel.plane_strain_modulus / 2, coefficient, terms=400)
+    creepages, forces = [-2e-2], [series.sliding(-2e-2)]
+    for stick in (0.5, 0.2):
+        creepage, force = series.rolling(stick)
+        creepages.append(creepage)
+        forces.append(force)
+    found = [
+        solve_rolling(
+            pressure, grid, (Body(steel), Body(steel)), friction=law, speed=speed, creepage=(creepage, 0.0)
+        ).force[0]
+        / total
+        for creepage in creepages
+    ]
+    reason = "227 cells over the half-width, whose edges are those of cells; 5e-4 with 400 terms"
+    at = np.column_stack([creepages, np.zeros(3), np.zeros(3)])
+    return [curve("force over load", "", "1", at, np.array(found), np.array(forces), 1e-3, reason)]
+
+
+def rolling_from_rest() -> list[Curve]:
+    """Creepage over distance from Cattaneo's to Carter's traction under a constant force; against series."""
+    cells, half, radius, share = 88, 1e-4, 1e-2, 0.6
+    steel = Material("steel", youngs_modulus=2.0, poissons_ratio=0.3)
+    grid = Grid((cells, 1), (2.2 * half / cells, 1e-3), periodic=(False, True))
+    x = grid.x - grid.x.mean()
+    peak = half * steel.plane_strain_modulus / (4 * radius)
+    pressure = peak * np.sqrt(np.maximum(1 - (x / half) ** 2, 0.0))[:, None]
+    force, bodies = (
+        np.array([share * FRICTION * float(pressure.sum()) * grid.cell_area, 0.0]),
+        (Body(steel), Body(steel)),
+    )
+    pushed = solve_partial_slip(pressure, grid, bodies, friction=FRICTION, force=(float(force[0]), 0.0))
+    steps, end = round(3 * half / grid.spacing[0]), 3 * half
+    found = solve_transient_rolling(
+        pressure, grid, bodies, friction=FRICTION, force=np.tile(force, (steps, 1)), start=pushed
+    )
+    series = TransientRollingCylinder(half, peak, steel.plane_strain_modulus / 2, FRICTION, share, terms=100)
+    places = half * np.array([0.2, 0.5, 1.0, 2.0])
+
+    def exact(count: int) -> FloatArray:
+        return np.interp(places, (np.arange(count) + 0.5) * end / count, series.creepage(end, count))
+
+    got = np.interp(places, found.distance - 0.5 * grid.spacing[0], found.creepage[:, 0])
+    reason = "80 cells in the contact, of first order; series extrapolated from 200 and 400 steps to 3e-3"
+    at = np.column_stack([places / half, np.zeros(4), np.zeros(4)])
+    return [curve("creepage", "over distance", "1", at, got, 2 * exact(400) - exact(200), 1.5e-2, reason)]
+
+
 def gates() -> list[Gate]:
     """Gates against closed forms of stick and slip."""
     listed = (
         ("pushed-ball", "Partial slip of a ball, pushed to and fro (Cattaneo; Mindlin, Deresiewicz).", pushed_ball),
         ("twisted-ball", "Partial slip of a ball that is twisted (Lubkin).", twisted_ball),
+        (
+            "shear-limited-ball",
+            "Partial slip of a ball with a constant shear strength, and with friction up to it (Abel).",
+            shear_limited_ball,
+        ),
+        (
+            "falling-friction-cylinder",
+            "Steady rolling of a cylinder with friction that falls with the slip speed (series).",
+            rolling_with_falling_friction,
+        ),
+        (
+            "rolling-cylinder-from-rest",
+            "Transient rolling of a cylinder under a constant force, from Cattaneo's slip to Carter's (series).",
+            rolling_from_rest,
+        ),
         ("rolling-cylinder", "Steady rolling of a cylinder with a tractive force (Carter).", rolling_cylinder),
     )
     return [Gate(name, "closed_forms", sentence, run) for name, sentence, run in listed]

@@ -9,7 +9,7 @@ from small_scenes import pressed_ball
 from bem import CATALOGUE, InputError
 from bem.notes import has_code
 from bem.notes.contact import PRESSING_PATH
-from bem.reference_solutions.partial_slip import PushedBall, TwistedBall
+from bem.reference_solutions.partial_slip import LimitedBall, PushedBall, TwistedBall
 from bem.scenes import PlainContext, get_kind, load_scene
 
 STEEL = CATALOGUE["steel-52100"].material
@@ -231,3 +231,20 @@ def test_a_closed_joint_has_no_stiffness_and_says_so(pressure, told):
     assert any(note.code == "joint-closed" for note in context.notes) == told
     if not told:
         assert record.tangential_stiffness == pytest.approx(1.4 / 1.7 * record.normal_stiffness, rel=0.1)
+
+
+def test_friction_up_to_a_shear_strength_is_abel_s():
+    law = {"kind": "coulomb_tresca", "friction": 0.4, "shear_limit": "150 MPa"}
+    record, _ = run(push={"friction": law, "share": 0.6, "steps": 1})
+    radius = np.sqrt(record.contact_area_fraction * 300e-6**2 / np.pi)
+    material = CATALOGUE["steel-52100"].material
+    shear = material.youngs_modulus / (2 * (1 + material.poissons_ratio))
+    exact = LimitedBall(radius, record.load, 0.4, 150e6, 2 * (2 - material.poissons_ratio) / shear)
+    assert abs(record.force - 0.6 * exact.force(0.0)) < record.errors["force"] < 0.05 * record.force
+    stick = radius * np.sqrt(record.stick_fraction)  # 40 cells across the grid
+    assert record.force == pytest.approx(exact.force(stick), rel=0.02)
+    assert record.shift == pytest.approx(exact.shift(stick), rel=0.02)
+    assert record.traction_bound.max() < 151e6
+    falling = {"kind": "falling_linear", "static_friction": 0.4, "kinetic_friction": 0.2, "half_speed": "1 m/s"}
+    with pytest.raises(InputError, match="a push has no speed"):
+        scene(push={"friction": falling, "share": 0.6})

@@ -81,6 +81,81 @@ def test_nothing_in_contact_carries_nothing():
     assert record.force == record.traction_coefficient == 0
 
 
+FALLING = {"kind": "falling_exponential", "static_friction": 0.4, "kinetic_friction": 0.2, "half_speed": "0.02 m/s"}
+
+
+def test_falling_friction_slides_with_less_the_faster_it_slides():
+    """All slips at 2 %: the coefficient is that of the slip speed, which is the creepage's but for the elastic part."""
+    record, _ = run({"friction": FALLING, "speed": "2 m/s", "creepage": 0.02})
+    assert record.status == "converged"
+    assert record.stick_fraction == 0
+    assert record.traction_coefficient == pytest.approx(0.2 + 0.2 * 2**-2, rel=0.01)
+    assert record.traction_bound.sum() == pytest.approx(0.4 * record.pressure.sum(), rel=1e-12)
+    finer, _ = run({"friction": FALLING, "speed": "2 m/s", "creepage": 5e-4}, grid={"shape": 120, "lengths": "300 um"})
+    coarse, _ = run({"friction": FALLING, "speed": "2 m/s", "creepage": 5e-4})
+    for name in ("force", "stick_fraction", "friction_work"):
+        assert abs(getattr(coarse, name) - getattr(finer, name)) < coarse.errors[name]
+
+
+def test_a_share_of_a_shear_strength_is_one_of_strength_times_area():
+    record, _ = run({"friction": {"kind": "tresca", "shear_limit": "50 MPa"}, "share": 0.5})
+    area = record.contact_area_fraction * (300e-6) ** 2
+    assert record.status == "converged"
+    assert record.force == pytest.approx(0.5 * 50e6 * area, rel=1e-6)
+    assert record.errors["force"] > 1e-4 * record.force
+
+
+def test_a_history_from_rest_ends_in_the_steady_state():
+    """Three contact lengths under a force, and under a creepage; curves, and error bars from twice the step."""
+    steady, _ = run({"share": 0.5})
+    ends = {"distances": ["0 um", "900 um"], "shares": [0.5, 0.5]}
+    rolled, context = run({}, history=ends)
+    assert rolled.status == "converged"
+    assert not context.notes
+    assert len(rolled.rolled_distance) == 120
+    assert rolled.rolled_distance[-1] == pytest.approx(9e-4, rel=1e-9)
+    assert rolled.creepage == pytest.approx(steady.creepage, rel=1e-3)
+    assert rolled.friction_work == pytest.approx(steady.friction_work, rel=2e-3)
+    assert rolled.errors["creepage"] == pytest.approx(steady.errors["creepage"], rel=0.05)
+    # pushed before, the contact rolls with less creepage at first
+    assert 0.3 < rolled.rolled_creepage[0] / rolled.creepage < 0.8
+    creeping, _ = run({}, history={"distances": ["0 um", "900 um"], "creepages": [steady.creepage] * 2})
+    assert creeping.force == pytest.approx(steady.force, rel=2e-3)
+    assert creeping.rolled_force[0] < 0.1 * creeping.force
+
+
+def test_a_history_is_linear_between_its_distances_and_may_jump():
+    table = {"distances": ["0 um", "30 um", "30 um", "60 um"], "creepages": [0.0, 1e-3, -1e-3, -1e-3]}
+    history = scene({}, history=table).history
+    assert history.steps(7.5e-6) == 8
+    assert history.values(7.5e-6)[:, 0] == pytest.approx([1.25e-4, 3.75e-4, 6.25e-4, 8.75e-4, *[-1e-3] * 4], rel=1e-9)
+    assert not history.values(7.5e-6)[:, 1].any()
+
+
+def test_messages_of_a_history():
+    ends = {"distances": ["0 um", "100 um"]}
+    for table, roll, text in (
+        (ends, {}, "either creepages or shares"),
+        (ends | {"shares": [0.5]}, {}, "2 shares"),
+        ({"distances": ["1 um", "2 um"], "shares": [0, 0.5]}, {}, "rise from 0"),
+        (ends | {"shares": [0, 0.5]}, {"share": 0.5}, "alone"),
+        (ends | {"shares": [0, 0.5]}, {"friction": FALLING, "speed": "2 m/s"}, "a law of the pressure alone"),
+    ):
+        with pytest.raises(InputError, match=text):
+            scene(roll, history=table)
+
+
+def test_messages_of_friction_laws():
+    with pytest.raises(InputError, match="speed with it, the rolling speed"):
+        scene({"friction": FALLING})
+    with pytest.raises(InputError, match="several creepages may have the same force"):
+        scene({"friction": FALLING, "speed": "2 m/s", "share": 0.5})
+    with pytest.raises(InputError, match="friction does not depend on it"):
+        scene({"speed": "2 m/s", "creepage": 0.001})
+    with pytest.raises(InputError, match="shear_limit"):
+        scene({"friction": "tresca"})
+
+
 def test_messages():
     with pytest.raises(InputError, match="creepage follows from the force"):
         scene({"share": 0.5, "creepage": 0.001})

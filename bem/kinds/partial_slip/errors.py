@@ -42,9 +42,11 @@ def bars_of(
         return Coarse(figures, there.contact(coarser), there.last.traction, converged, fewer, left)
 
     figures = figures_of(scene, path) | extra
-    given = ("shift",) if scene.push.shift is not None else ("force",)
+    given: tuple[str, ...] = ("shift",) if scene.push.shift is not None else ("force",)
+    if scene.push.share is not None and not isinstance(scene.push.friction, float):
+        given = ()  # a share of the sum of the law's bounds, which depends on the cells
     residual = max(site.contact.residual, float(path.column("residual").max()))
-    limit = scene.push.friction * site.contact.load
+    limit = sticking.friction_limit(scene.push.friction, site)
     return sticking.bars(
         scene, site, Found(figures, path.contact(site), PUSH_RULES, given, residual, limit, below), again
     )

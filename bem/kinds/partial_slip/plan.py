@@ -34,7 +34,7 @@ def plan(scene: PartialSlipScene) -> Plan:
             ),
             Step(
                 "partial slip",
-                f"{count} steps along x, friction {scene.push.friction:g}"
+                f"{count} steps along x, {sticking.friction_words(scene.push.friction)}"
                 + (", the pressure follows the tractions" if answers(scene) else ""),
                 transforms=each * count,
                 points=points,

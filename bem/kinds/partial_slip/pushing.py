@@ -15,7 +15,7 @@ import numpy as np
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.scenes import build
-from bem.scenes.sticking import Site, coupled
+from bem.scenes.sticking import Site, coupled, friction_limit
 from bem.scenes.tables.tangential import PushedScene
 
 if TYPE_CHECKING:
@@ -99,7 +99,7 @@ def pushed(
 ) -> Path:
     """All steps, going on from the last one of `path`; `after` is told of each."""
     push, way = scene.push, scene.push.path()
-    scale = push.peak * (push.friction * site.contact.load if push.share is not None else 1.0)
+    scale = push.peak * (friction_limit(push.friction, site) if push.share is not None else 1.0)
     name = "shift" if push.shift is not None else "force"
     for number in range(len(path.steps), len(way)):
         pushed_by, rotation = float(way[number] * scale), float(way[number]) * (push.rotation or 0.0)

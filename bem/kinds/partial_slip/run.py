@@ -63,7 +63,7 @@ def _record(
     return PartialSlipRecord(
         x=site.grid.x,
         y=site.grid.y,
-        **sticking.stuck(site.grid, contact, last),
+        **sticking.stuck(site.grid, contact, last, scene.push.friction),
         **figures,
         counted_stick_fraction=float(path.column("counted_stick")[-1]),
         rotation=last.rotation if turns else None,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from bem.errors import Status
 from bem.kinds.rolling.scene import RollingContactScene
-from bem.kinds.rolling.solve import rolled_figures, solve_rolling_contact
+from bem.kinds.rolling.solve import rolled_figures, solve_rolled
 from bem.scenes import sticking
 from bem.scenes.resolutions import CELLS, DEPTHS
 from bem.scenes.sticking import Coarse, Found, Site
@@ -20,17 +20,21 @@ if TYPE_CHECKING:
 def bars_of(
     scene: RollingContactScene, site: Site, found: TangentialSolution, below: StressSummary | None
 ) -> ErrorBars:
-    """Estimate errors from the same rolling on the grid of twice the cell."""
+    """Estimate errors from the same rolling on the grid of twice the cell, whose steps are twice as long."""
     from bem.accuracy.sticking import ROLL_RULES
 
     def again(coarser: Site) -> Coarse:
-        there = solve_rolling_contact(scene, coarser)
+        there = solve_rolled(scene, coarser)
         figures, converged = rolled_figures(coarser, there, scene.roll.spin), there.status is Status.CONVERGED
         return Coarse(figures, coarser.contact, there.traction, converged)
 
-    given = ("creepage", "creepage_across") if scene.roll.share is None else ("force", "force_across")
+    given: tuple[str, ...] = ("creepage", "creepage_across") if scene.roll.share is None else ("force", "force_across")
+    if scene.history is not None and scene.history.shares is not None:
+        given = ("force", "force_across")
+    if "force" in given and not isinstance(scene.roll.friction, float):
+        given = ("force_across",)  # the share is one of the sum of the law's bounds, which depends on the cells
     residual = max(site.contact.residual, found.residual)
-    limit = scene.roll.friction * site.contact.load
+    limit = sticking.friction_limit(scene.roll.friction, site)
     figures = rolled_figures(site, found, scene.roll.spin)
     return sticking.bars(scene, site, Found(figures, site.contact, ROLL_RULES, given, residual, limit, below), again)
 

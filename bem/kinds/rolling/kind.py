@@ -20,6 +20,14 @@ KIND = Kind(
     resolve=RollingContactScene.resolved,
     resolutions=RESOLUTIONS,
     contacts=contacts,
-    figures=("creep-curve", "slip-map", "traction-section", "pressure-map", "von-mises-section", "von-mises-depth"),
+    figures=(
+        "creep-curve",
+        "rolling-history",
+        "slip-map",
+        "traction-section",
+        "pressure-map",
+        "von-mises-section",
+        "von-mises-depth",
+    ),
     warm_up=(("rolling-creepage", ("grid.shape=24", 'over={"roll.creepage" = [0.001]}')),),
 )

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated
 
 from bem.grid import FloatArray
 from bem.scenes.records import Figure, Series, grid_map
 from bem.scenes.sticking import StickRecord
+
+_rolled = partial(Series, ("rolled_distance",))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -30,4 +33,11 @@ class RollingRecord(StickRecord):
     slip_residual: Annotated[float, Figure("", "relative residual of slip and stick", unjudged=True)]
     convolutions: Annotated[float, Figure("", "convolutions of the rolling", unjudged=True)]
     slip: Annotated[FloatArray, grid_map("1", "sliding over rolling velocity")]
+    rolled_distance: Annotated[FloatArray | None, _rolled("m", "distance rolled")] = None
+    rolled_force: Annotated[FloatArray | None, _rolled("N", "force on the lower body along x")] = None
+    rolled_force_across: Annotated[FloatArray | None, _rolled("N", "force on the lower body along y")] = None
+    rolled_creepage: Annotated[FloatArray | None, _rolled("1", "creepage along x")] = None
+    rolled_creepage_across: Annotated[FloatArray | None, _rolled("1", "creepage along y")] = None
+    rolled_stick_fraction: Annotated[FloatArray | None, _rolled("1", "share of the contact's cells that stick")] = None
+    rolled_friction_work: Annotated[FloatArray | None, _rolled("N", "energy of friction over distance rolled")] = None
     friction_energy: Annotated[FloatArray, grid_map("J/m^3", "energy of friction over area and distance rolled")]

@@ -10,7 +10,7 @@ from bem.errors import Status
 from bem.kinds.rolling.errors import bars_of
 from bem.kinds.rolling.record import RollingRecord
 from bem.kinds.rolling.scene import RollingContactScene
-from bem.kinds.rolling.solve import rolled_figures, solve_rolling_contact
+from bem.kinds.rolling.solve import history_curves, rolled_figures, solve_rolling_contact, solve_rolling_history
 from bem.scenes import sticking
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.sticking import Site
@@ -22,17 +22,32 @@ if TYPE_CHECKING:
 def run(scene: RollingContactScene, context: Context) -> RollingRecord:
     """Solve the contact, then what sticks while it rolls."""
     site = sticking.pressed_together(scene, context)
+    curves: dict[str, Any] = {}
     with context.timer("rolling"):
-        found = solve_rolling_contact(scene, site)
+        if scene.history is None:
+            found = solve_rolling_contact(scene, site)
+        else:
+            history = solve_rolling_history(
+                scene, site, lambda done, total: context.progress(done, total, "steps of a cell")
+            )
+            found, curves = history.last, history_curves(site, history, scene.roll.spin)
     tell(context, found.notes)
     sticking.tell_coupled(scene, context)
     below = sticking.stresses_under(scene, site.grid, site.contact.pressure, found.traction, context)
     wanted = scene.outputs.errors and Status.CONVERGED is site.contact.status is found.status
     errors = error_bars(context, wanted, lambda: bars_of(scene, site, found, below))
-    return _record(site, found, rolled_figures(site, found, scene.roll.spin) | sticking.stress_figures(below), errors)
+    return _record(
+        scene,
+        site,
+        found,
+        rolled_figures(site, found, scene.roll.spin) | sticking.stress_figures(below) | curves,
+        errors,
+    )
 
 
-def _record(site: Site, found: TangentialSolution, extra: dict[str, Any], errors: dict[str, Any]) -> RollingRecord:
+def _record(
+    scene: RollingContactScene, site: Site, found: TangentialSolution, extra: dict[str, Any], errors: dict[str, Any]
+) -> RollingRecord:
     grid, contact = site.grid, site.contact
     slid = found.slip / grid.spacing[0]
     energy = -(found.traction * slid).sum(axis=0)
@@ -41,7 +56,7 @@ def _record(site: Site, found: TangentialSolution, extra: dict[str, Any], errors
     return RollingRecord(
         x=grid.x,
         y=grid.y,
-        **sticking.stuck(grid, contact, found),
+        **sticking.stuck(grid, contact, found, scene.roll.friction),
         **extra,
         resolved_work=float(energy.sum()) * grid.cell_area / work if work > 0 else 1.0,
         slip_residual=found.residual,

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bem.grid import FloatArray
 from bem.kinds.rolling.scene import RollingContactScene
 from bem.scenes import build
-from bem.scenes.sticking import Site
+from bem.scenes.sticking import Site, friction_limit
 
 if TYPE_CHECKING:
-    from bem.tangential import TangentialSolution
+    from bem.tangential import RollingHistory, TangentialSolution
 
 
 def solve_rolling_contact(scene: RollingContactScene, site: Site) -> TangentialSolution:
@@ -22,9 +24,64 @@ def solve_rolling_contact(scene: RollingContactScene, site: Site) -> TangentialS
     carried = site.carried(roll.spin)
     given: dict[str, Any] = {"creepage": (roll.creepage + carried[0], roll.creepage_across + carried[1])}
     if roll.share is not None:
-        given = {"force": (roll.share * roll.friction * site.contact.load, 0.0)}
+        given = {"force": (roll.share * friction_limit(roll.friction, site), 0.0)}
     asked: dict[str, Any] = {"friction": roll.friction, "spin": roll.spin, "tolerance": roll.tolerance}
+    if roll.speed is not None:
+        asked["speed"] = roll.speed
     return solve_rolling(site.contact, site.grid, build.bodies_of(scene), **given, **asked)
+
+
+def solve_rolling_history(
+    scene: RollingContactScene, site: Site, after: Callable[[int, int], None] = lambda done, total: None
+) -> RollingHistory:
+    """Solve transient rolling on a pressed contact; `after` is called with the steps done and their total.
+
+    Shares begin with a push by the first of them, before the bodies roll.
+    """
+    from bem.tangential import solve_partial_slip, solve_transient_rolling
+
+    roll, history, bodies = scene.roll, scene.history, build.bodies_of(scene)
+    assert history is not None
+    values, start = history.values(site.grid.spacing[0]), None
+    given: dict[str, Any] = {"creepage": values + np.array(site.carried(roll.spin))}
+    if history.shares is not None:
+        limit = friction_limit(roll.friction, site)
+        given = {"force": values * limit}
+        if history.shares[0]:
+            push = (history.shares[0] * limit, 0.0)
+            start = solve_partial_slip(
+                site.contact, site.grid, bodies, friction=roll.friction, force=push, tolerance=roll.tolerance
+            )
+    return solve_transient_rolling(
+        site.contact,
+        site.grid,
+        bodies,
+        friction=roll.friction,
+        spin=roll.spin,
+        start=start,
+        tolerance=roll.tolerance,
+        after=after,
+        **given,
+    )
+
+
+def solve_rolled(scene: RollingContactScene, site: Site) -> TangentialSolution:
+    """Solve steady rolling, or the history where there is one, and return the state at its end."""
+    return solve_rolling_contact(scene, site) if scene.history is None else solve_rolling_history(scene, site).last
+
+
+def history_curves(site: Site, history: RollingHistory, spin: float) -> dict[str, FloatArray]:
+    """Return the curves over the distance rolled, SI units; `spin` [1/m] of the rolling."""
+    creepage = history.creepage - np.array(site.carried(spin))
+    return {
+        "rolled_distance": history.distance,
+        "rolled_force": history.force[:, 0],
+        "rolled_force_across": history.force[:, 1],
+        "rolled_creepage": creepage[:, 0],
+        "rolled_creepage_across": creepage[:, 1],
+        "rolled_stick_fraction": history.stick_fraction,
+        "rolled_friction_work": history.friction_work,
+    }
 
 
 def rolled_figures(site: Site, found: TangentialSolution, spin: float) -> dict[str, float]:

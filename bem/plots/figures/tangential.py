@@ -35,11 +35,14 @@ def _section(run: Any, figure: Figure) -> None:
     row = int(np.argmax(pressure.sum(axis=0)))
     axes = figure.add_subplot()
     factor, unit = prefix([float(np.ptp(x))], "m")
-    friction = float((run.scene.get("push") or run.scene["roll"])["friction"])
-    scale, pressure_unit = prefix([float(friction * pressure[:, row].max())], "Pa")
+    if "traction_bound" in data:
+        bound, words = data["traction_bound"].values[:, row], "bound without slip"
+    else:
+        friction = float((run.scene.get("push") or run.scene["roll"])["friction"])
+        bound, words = friction * pressure[:, row], "friction x pressure"
+    scale, pressure_unit = prefix([float(bound.max())], "Pa")
     for sign in (1, -1):
-        axes.plot(x * factor, sign * friction * pressure[:, row] * scale, color="0.6", linewidth=0.9,
-                  label="friction x pressure" if sign > 0 else None)  # fmt: skip
+        axes.plot(x * factor, sign * bound * scale, color="0.6", linewidth=0.9, label=words if sign > 0 else None)
     axes.plot(x * factor, data["traction_x"].values[:, row] * scale, color=BLACK, label="traction along x")
     axes.plot(x * factor, data["traction_y"].values[:, row] * scale, color=ORANGE, linewidth=0.9, label="along y")
     axes.set_xlabel(label("x", unit))

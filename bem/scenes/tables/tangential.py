@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Annotated, Self
 
 import numpy as np
@@ -10,18 +11,31 @@ from pydantic import Field, model_validator
 from bem.grid import FloatArray
 from bem.scenes.common import Force, Table, exactly_one, problem
 from bem.scenes.keys import key
+from bem.scenes.laws import LawOrNumber
 from bem.scenes.tables.pressing import ContactControl, StressedScene, StressOutputs
-from bem.scenes.units import Angle, InverseLength, Length, Ratio
+from bem.scenes.units import Angle, InverseLength, Length, Ratio, Speed
+from bem.tangential.friction_laws import SlipFriction
+
+_COEFFICIENT = Annotated[Ratio, Field(gt=0, le=10)]
+
+
+def _without_speed(law: type[SlipFriction]) -> bool:
+    """Return True for laws whose bound does not depend on the slip speed."""
+    return not law.depends_on_speed
 
 
 class PushScene(Table):
     """Tangential loading: force, displacement or rotation up to a peak, and in cycles."""
 
-    friction: Annotated[Ratio, Field(gt=0, le=10)] = key(
-        "Friction coefficient (Coulomb): the traction never exceeds it times the pressure.", "basic"
+    friction: Annotated[
+        float | SlipFriction, LawOrNumber("slip_friction", takes=_without_speed, number=_COEFFICIENT)
+    ] = key(
+        "Friction coefficient (Coulomb): the traction never exceeds it times the pressure; or a law of its bound, such "
+        'as { kind = "tresca", shear_limit = "50 MPa" }.',
+        "basic",
     )
     share: Annotated[Ratio, Field(gt=0, lt=1)] | None = key(
-        "Peak tangential force over friction coefficient x load; or give force or shift.",
+        "Peak tangential force over the largest one, friction coefficient x load; or give force or shift.",
         "basic",
         default=None,
         example=0.6,
@@ -57,6 +71,15 @@ class PushScene(Table):
     tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = key(
         "Relative tolerance of Coulomb's conditions in each step.", "expert", default=1e-7
     )
+
+    @model_validator(mode="after")
+    def _friction_without_speed(self) -> PushScene:
+        if isinstance(self.friction, SlipFriction) and self.friction.depends_on_speed:
+            raise problem(
+                f"the {self.friction.name} law depends on the slip speed: a push has no speed",
+                "a law of the pressure alone, such as coulomb or tresca",
+            )
+        return self
 
     @model_validator(mode="after")
     def _one_control(self) -> PushScene:
@@ -137,8 +160,13 @@ class PushedScene(StickingScene):
 class RollScene(Table):
     """Steady rolling along +x with creepage and spin."""
 
-    friction: Annotated[Ratio, Field(gt=0, le=10)] = key(
-        "Friction coefficient (Coulomb): the traction never exceeds it times the pressure.", "basic"
+    friction: Annotated[float | SlipFriction, LawOrNumber("slip_friction", number=_COEFFICIENT)] = key(
+        "Friction coefficient (Coulomb): the traction never exceeds it times the pressure; or a law of its bound, such "
+        'as { kind = "falling_rational", static_friction = 0.4, kinetic_friction = 0.2, half_speed = "1 m/s" }.',
+        "basic",
+    )
+    speed: Annotated[Speed, Field(gt=0)] | None = key(
+        "Rolling speed, for a friction law that depends on the slip speed.", "advanced", default=None, example="20 m/s"
     )
     creepage: Annotated[Ratio, Field(ge=-1, le=1)] = key(
         "Longitudinal creepage: relative velocity of the lower body over the rolling velocity, along x.",
@@ -150,7 +178,7 @@ class RollScene(Table):
         "Spin creepage: relative angular velocity about the normal over the rolling velocity.", "basic", default=0.0
     )
     share: Annotated[Ratio, Field(gt=-1, lt=1)] | None = key(
-        "Longitudinal force over friction coefficient x load; instead of a creepage.",
+        "Longitudinal force over the largest one, friction coefficient x load; instead of a creepage.",
         "advanced",
         default=None,
         example=0.5,
@@ -165,9 +193,94 @@ class RollScene(Table):
             raise problem("share and a creepage: the creepage follows from the force", "one of them")
         return self
 
+    @model_validator(mode="after")
+    def _speed_goes_with_its_law(self) -> RollScene:
+        law = self.friction if isinstance(self.friction, SlipFriction) else None
+        if law is None or not law.depends_on_speed:
+            if self.speed is not None:
+                raise problem("speed is given, and friction does not depend on it", "no speed, or a falling law")
+            return self
+        if self.speed is None:
+            raise problem(f"the {law.name} law depends on the slip speed", "speed with it, the rolling speed")
+        if self.share is not None:
+            raise problem(
+                f"share with the {law.name} law: several creepages may have the same force", "a creepage with it"
+            )
+        return self
+
+
+class RollHistory(Table):
+    """Transient rolling: creepages or forces over the distance rolled, linear between its points."""
+
+    distances: Annotated[list[Length], Field(min_length=2, max_length=1000)] = key(
+        "Distances rolled, from 0 on; the history is linear between them, and two equal distances are a jump. A step "
+        "is a cell.",
+        "basic",
+        example=["0 mm", "20 mm"],
+    )
+    creepages: list[Annotated[Ratio, Field(ge=-1, le=1)]] | None = key(
+        "Longitudinal creepages at the distances, from bodies at rest without traction; or give shares.",
+        "basic",
+        default=None,
+        example=[0.001, 0.001],
+    )
+    creepages_across: list[Annotated[Ratio, Field(ge=-1, le=1)]] | None = key(
+        "Lateral creepages at the distances.", "advanced", default=None, reason="none", example=[0.0, 0.001]
+    )
+    shares: list[Annotated[Ratio, Field(gt=-1, lt=1)]] | None = key(
+        "Longitudinal forces over the largest one, friction coefficient x load, at the distances; the first one pushes "
+        "the bodies before they roll.",
+        "basic",
+        default=None,
+        example=[0.5, 0.5],
+    )
+
+    @model_validator(mode="after")
+    def _points(self) -> RollHistory:
+        if (self.shares is None) == (self.creepages is None and self.creepages_across is None):
+            raise problem("creepages and shares, or neither", "either creepages or shares")
+        if self.distances[0] != 0 or any(b < a for a, b in pairwise(self.distances)) or not self.distances[-1] > 0:
+            raise problem("distances that do not begin at 0, or fall", "distances that rise from 0")
+        for name in ("creepages", "creepages_across", "shares"):
+            values = getattr(self, name)
+            if values is not None and len(values) != len(self.distances):
+                raise problem(
+                    f"{len(values)} {name} for {len(self.distances)} distances", f"{len(self.distances)} {name}"
+                )
+        return self
+
+    def steps(self, cell: float) -> int:
+        """Return the number of steps of a cell [m]."""
+        return max(round(self.distances[-1] / cell), 1)
+
+    def values(self, cell: float) -> FloatArray:
+        """Return the history in each step, (n, 2): creepages in the middle of the step, or shares at its end."""
+        ends = np.arange(1.0, self.steps(cell) + 1)
+        if self.shares is not None:
+            return np.stack([np.interp(ends * cell, self.distances, self.shares), np.zeros_like(ends)], axis=1)
+        parts = [self.creepages or [0.0] * len(self.distances), self.creepages_across or [0.0] * len(self.distances)]
+        return np.stack([np.interp((ends - 0.5) * cell, self.distances, part) for part in parts], axis=1)
+
 
 class RolledScene(StickingScene):
     """A contact that rolls along x."""
 
     roll: RollScene = key("Steady rolling with creepage and spin.", "basic")
+    history: RollHistory | None = key(
+        "Transient rolling from rest, in place of the steady state.", "advanced", default=None, reason="steady rolling"
+    )
     outputs: StickOutputs = key("Results besides pressure, traction and slip.", "basic", default=StickOutputs())
+
+    @model_validator(mode="after")
+    def _history_alone(self) -> RolledScene:
+        roll = self.roll
+        if self.history is None:
+            return self
+        if roll.creepage or roll.creepage_across or roll.share is not None:
+            raise problem("roll.creepage or roll.share with a history", "history.creepages or history.shares alone")
+        if roll.speed is not None:
+            raise problem(
+                "a history with friction that depends on the slip speed",
+                "a law of the pressure alone, or steady rolling",
+            )
+        return self
