@@ -3,7 +3,8 @@
 Inside Hertz' contact every wave has the amplitude that it leaves in the film (`ripples.film_ripples`), outside its own.
 A patch that ends somewhere is continued by its mirror image, which fades over half of its length, so that it repeats.
 
-Compared with films that have the roughness in Reynolds' equation (`reports/experiments/wave_sharing.py`).
+Verified in tests/lubrication/test_flattening.py; compared with films that have the roughness in Reynolds' equation in
+reports/experiments/wave_sharing.py.
 """
 
 from __future__ import annotations
