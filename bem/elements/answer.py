@@ -23,6 +23,7 @@ from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.running import Running, run_all
 from bem.notes import Note
+from bem.notes.elements import SURFACES_TOUCH
 from bem.notes.note import percent
 from bem.quantities import plain_digits, with_unit
 
@@ -179,7 +180,9 @@ def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...
     runs = [one for one in solved if one.converged]
     if not isinstance(element.model, PlainBushModel):
         return ()
-    return bush_notes(element.model, likely_power(element, runs) if runs else None)
+    touching = any((one.film_ratio or 1.0) < 1 for one in runs)
+    notes = bush_notes(element.model, likely_power(element, runs) if runs else None)
+    return (*notes, SURFACES_TOUCH(where="")) if touching else notes
 
 
 def place_words(element: Element, one: ElementContact) -> str:

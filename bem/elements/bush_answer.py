@@ -24,17 +24,14 @@ _HOUR = 3600.0
 def pressure_words(model: PlainBushModel) -> str:
     """Return contact angle and pressures in words."""
     found = model.conforming
-    deviation, _ = model.hertz_deviation()
-    hertz = (1 + deviation) * found.maximum_pressure
     if model.wall is None:
         around = f"bush of infinite thickness, of {model.second.build().name}"
     else:
-        housing = "a rigid housing" if model.housing is None else f"a housing of {model.housing.build().name}"
-        around = f"bush {with_unit(model.wall, 'm')} thick in {housing}"
+        around = f"bush {with_unit(model.wall, 'm')} thick in a housing of {model.housing_material.name}"
     peak, mean = with_unit(found.maximum_pressure, "Pa"), with_unit(model.mean_pressure, "Pa")
     return (
         f"load line: half-angle {math.degrees(found.half_angle):.1f} deg, peak pressure {peak}, mean pressure F/(d L) "
-        f"{mean}; {around} (Hertz' equivalent cylinder: {with_unit(hertz, 'Pa')})"
+        f"{mean}; {around} (equivalent cylinder on a flat: {with_unit(model.cylinder.maximum_pressure, 'Pa')})"
     )
 
 
@@ -51,7 +48,11 @@ def friction_power_of(model: PlainBushModel, lubricated: float | None) -> tuple[
             f"friction coefficient {lubricated / slid:.3g} of film and asperities, whose boundary friction is "
             f"{model.boundary_friction:g}, an estimate; kind friction computes it"
         )
-    return DRY_FRICTION * slid, f"friction coefficient {DRY_FRICTION:g} assumed: dry thermoplastics have 0.15 to 0.40"
+    dry = "" if model.oil is None else ", as if dry: no film is solved"
+    return (
+        DRY_FRICTION * slid,
+        f"friction coefficient {DRY_FRICTION:g} assumed{dry}: dry thermoplastics have 0.15 to 0.40",
+    )
 
 
 def bush_temperature(model: PlainBushModel, power: float) -> float:
@@ -82,7 +83,8 @@ def bush_notes(model: PlainBushModel, lubricated: float | None) -> tuple[Note, .
             BUSH_OVER_LIMIT(value=1e-6 * pv, limit=1e-6 * model.pv_limit, ratio=pv / model.pv_limit, reason="pv")
         )
     highest = model.service_temperature
-    temperature = bush_temperature(model, friction_power_of(model, lubricated)[0])
+    known = lubricated is not None or model.oil is None or model.friction is not None
+    temperature = bush_temperature(model, friction_power_of(model, lubricated)[0]) if known else 0.0
     if highest is not None and temperature > highest:
         notes.append(BUSH_OVER_LIMIT(value=temperature - CELSIUS, limit=highest - CELSIUS, reason="temperature"))
     return tuple(notes)

@@ -13,6 +13,7 @@ from pathlib import Path
 from pydantic_core import PydanticCustomError
 
 from bem.elements.element import Element, load_element, read_element
+from bem.elements.plain_bush import PlainBushModel
 from bem.errors import InputError
 from bem.kinds.traction.along import columns_of
 from bem.scenes.paths import parse_key, put
@@ -58,7 +59,13 @@ def columns(cases: Sequence[Element]) -> dict[str, list[float | str]]:
     found["hertz_pressure [Pa]"] = [
         contact.hertz(one.modulus).maximum_pressure for one, contact in zip(cases, worst, strict=True)
     ]
-    if all(one.model.oil is not None for one in cases):
+    bushes = [one.model for one in cases if isinstance(one.model, PlainBushModel)]
+    if bushes:
+        found["peak_pressure [Pa]"] = [one.conforming.maximum_pressure for one in bushes]
+        found["mean_pressure [Pa]"] = [one.mean_pressure for one in bushes]
+        found["sliding_speed [m/s]"] = [one.sliding_speed for one in bushes]
+        del found["hertz_pressure [Pa]"]
+    if all("minimum_film [m]" in one.columns() for one in cases):
         films = [min(one.columns()["minimum_film [m]"]) for one in cases]
         found["minimum_film [m]"] = list(films)
         if all(one.model.rms_roughness is not None for one in cases):

@@ -19,7 +19,7 @@ of bush and shaft by Navier's equations along the radius.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,8 +33,10 @@ _SMALLEST, _LARGEST = 1e-3, 2.6
 """Half-angles between which a load is sought [rad]."""
 _TRIALS, _LOAD_TOLERANCE = 100, 1e-10
 """Half-angles that are tried at most, and the relative deviation of the load at which one is found."""
-_THINNEST = 0.01
+_THINNEST = 0.001
 """Thinnest wall over the radius whose harmonics are summed."""
+_LARGER = 10.0
+"""Radii of the equivalent cylinder over those of shaft and bush."""
 _DECAY = 40.0
 """Harmonics of a wall are summed until they have fallen by exp of this."""
 
@@ -72,6 +74,16 @@ class ConformingBodies:
     def equivalent_radius(self) -> float:
         """Radius of the cylinder on a flat with the same gap near the load line [m]."""
         return self.radius * (self.radius - self.clearance) / self.clearance
+
+    @property
+    def cylinder(self) -> ConformingBodies:
+        """Nearly the cylinder on a flat, under its layer if the bush has a wall, with the same gap near the load line.
+
+        Radii are ten times larger and the gap near the load line, clearance/radius^2, is that of the equivalent radius:
+        the effect of conformity falls with the square of the angle.
+        """
+        radius = _LARGER * self.radius
+        return replace(self, radius=radius, clearance=radius**2 / self.equivalent_radius)
 
     @property
     def modulus(self) -> float:
@@ -189,7 +201,7 @@ class _WallSeries:
         if bodies.wall is None:
             return cls(0.0, np.zeros(0))
         count = math.ceil(0.5 * _DECAY / math.log1p(bodies.wall / bodies.radius))
-        return cls(_bush_mean(bodies), np.array([_bush_harmonic(bodies, n) for n in range(2, max(count, 8))]))
+        return cls(_bush_mean(bodies), _bush_harmonics(bodies, np.arange(2, max(count, 8))))
 
     def sum(self, angle: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the sum over all harmonics at the differences of all pairs of angles [rad]."""
@@ -214,40 +226,44 @@ def _bush_mean(bodies: ConformingBodies) -> float:
     return float(a * radius + b / radius - radius / (2 * shear))
 
 
-def _bush_harmonic(bodies: ConformingBodies, n: int) -> float:
-    """Return the flexibility of the bush under cos(n angle) less that of the infinite body; radii over the bore's.
+def _bush_harmonics(bodies: ConformingBodies, orders: NDArray[np.int_]) -> NDArray[np.float64]:
+    """Return the flexibility of the bush under cos(n angle) less that of the infinite body, n >= 2 [m/Pa].
 
-    Michell's functions r^n, r^(n+2), r^-n, r^(2-n); rising ones are scaled at the outer, falling ones at the inner
-    radius.
+    Michell's functions r^n, r^(n+2), r^-n, r^(2-n) of radii over the bore's; rising ones are scaled at the outer,
+    falling ones at the inner radius, and those of the housing at the outer one.
     """
     assert bodies.wall is not None
+    n = orders.astype(float)
     shear, kappa = bodies.bush.shear_modulus, 3 - 4 * bodies.bush.poissons_ratio
     outer = 1 + bodies.wall / bodies.radius
-    inner_rows = _michell(n, kappa, 1.0, outer)
-    outer_rows = _michell(n, kappa, outer, outer)
+    inner_rows, outer_rows = _michell(n, kappa, 1.0, outer, 1.0), _michell(n, kappa, outer, outer, 1.0)
     size = 4 if bodies.housing is None else 6
-    matrix, right = np.zeros((size, size)), np.zeros(size)
-    matrix[0, :4], matrix[1, :4] = inner_rows[0], inner_rows[1]
-    right[0] = -1.0
-    matrix[2:4, :4] = outer_rows[2:]
+    matrix, right = np.zeros((len(n), size, size)), np.zeros((len(n), size, 1))
+    matrix[:, :2, :4] = inner_rows[:, :2]
+    right[:, 0] = -1.0
+    matrix[:, 2:4, :4] = outer_rows[:, 2:]
     if bodies.housing is not None:
-        beyond = _michell(n, 3 - 4 * bodies.housing.poissons_ratio, outer, outer)[:, 2:] * outer**n
-        matrix[2:4, 4:] = -beyond[2:] * shear / bodies.housing.shear_modulus
-        matrix[4:6, :4], matrix[4:6, 4:] = outer_rows[:2], -beyond[:2]
-    found = np.linalg.solve(matrix, right)[:4]
-    moved = float(inner_rows[2] @ found) / (2 * shear)
-    infinite = (kappa / (n - 1) + 1 / (n + 1)) / (4 * shear)
+        beyond = _michell(n, 3 - 4 * bodies.housing.poissons_ratio, outer, outer, outer)[:, :, 2:]
+        matrix[:, 2:4, 4:] = -beyond[:, 2:] * shear / bodies.housing.shear_modulus
+        matrix[:, 4:6, :4], matrix[:, 4:6, 4:] = outer_rows[:, :2], -beyond[:, :2]
+    found = np.linalg.solve(matrix, right)[:, :4, 0]
+    moved = np.sum(inner_rows[:, 2] * found, axis=1) / (2 * shear)
+    infinite: NDArray[np.float64] = (kappa / (n - 1) + 1 / (n + 1)) / (4 * shear)
     return bodies.radius * (moved - infinite)
 
 
-def _michell(n: int, kappa: float, radius: float, outer: float) -> NDArray[np.float64]:
-    """Return radial stress, shear stress and both displacements times 2 G of the four functions at a radius, (4, 4)."""
-    rise, fall = (radius / outer) ** n, radius**-n
+def _michell(n: NDArray[np.float64], kappa: float, radius: float, rising: float, falling: float) -> NDArray[np.float64]:
+    """Return radial stress, shear stress and both displacements times 2 G of the four functions at a radius, (n, 4, 4).
+
+    rising, falling : radii at which the powers n and -n are one.
+    """
+    rise, fall = (radius / rising) ** n, (radius / falling) ** -n
     square = 1 / radius**2
     up, down = n * (n - 1), n * (n + 1)
-    return np.array([
+    rows = np.array([
         [-up * rise * square, -(n + 1) * (n - 2) * rise, -down * fall * square, -(n - 1) * (n + 2) * fall],
         [up * rise * square, down * rise, -down * fall * square, -up * fall],
         [-n * rise / radius, (kappa - n - 1) * rise * radius, n * fall / radius, (kappa + n - 1) * fall * radius],
         [n * rise / radius, (kappa + n + 1) * rise * radius, n * fall / radius, (n - kappa - 1) * fall * radius],
     ])  # fmt: skip
+    return np.moveaxis(rows, -1, 0)

@@ -21,7 +21,7 @@ from bem.elements.contact import CONFORMING, ElementContact
 from bem.elements.gear_pair import GearModel
 from bem.elements.model import Contacts, ElementModel
 from bem.elements.piston_ring import PistonRingModel
-from bem.elements.plain_bush import PlainBushModel
+from bem.elements.plain_bush import HOUSING, PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.rough_scenes import mixed_scene, rubbing_scene
 from bem.errors import InputError
@@ -163,7 +163,10 @@ class Element:
             "hertz_pressure [Pa]": [one.hertz(modulus).maximum_pressure for one in contacts],
             "half_width [m]": [one.half_width(modulus) for one in contacts],
         }
-        if self.model.oil is not None:
+        if isinstance(self.model, PlainBushModel):
+            found["peak_pressure [Pa]"] = [self.model.conforming.maximum_pressure]
+            found["half_angle [rad]"] = [self.model.conforming.half_angle]
+        if self.model.oil is not None and not self._layered:  # the fit knows no layers
             oil = self._film_oil().build()
             films = [one.minimum_film(modulus, oil) for one in contacts]
             found["minimum_film [m]"] = films
@@ -275,13 +278,31 @@ class Element:
             "name": self.model.name,
             "description": "; ".join([f"{self.model.element}: {contact.name}", *assumed]),
         }
-        bodies = {"lower": {"material": self.table["first"]}, "upper": {"material": self.table["second"]}}
+        bodies = self._body_tables()
         if kind == "contact":
             return base | self._dry(contact, bodies)
         if kind == "surface-temperature":
             self._check_heat()
-            return base | rubbing_scene(self.model, contact, bodies, self.modulus)
+            return base | rubbing_scene(self.model, contact, bodies, self._patch_modulus)
         return base | self._film(contact, bodies, kind)
+
+    @property
+    def _layered(self) -> bool:
+        """True if body 2 is a layer: a bush with a wall, in whose films kinds of scene compute no heat."""
+        return isinstance(self.model, PlainBushModel) and self.model.wall is not None
+
+    @property
+    def _patch_modulus(self) -> float:
+        """Contact modulus by which scenes choose their patch [Pa]."""
+        return self.model.film_modulus if isinstance(self.model, PlainBushModel) else self.modulus
+
+    def _body_tables(self) -> dict[str, Any]:
+        """Tables of both bodies of a scene with their materials; a bush with a wall is a layer on its housing."""
+        upper = {"material": self.table["second"]}
+        if isinstance(self.model, PlainBushModel) and self.model.wall is not None:
+            layer = {**upper, "thickness": self.model.wall}
+            upper = {"material": self.table.get("housing", HOUSING), "layer": layer}
+        return {"lower": {"material": self.table["first"]}, "upper": upper}
 
     def _film(self, contact: ElementContact, bodies: dict[str, Any], kind: str) -> dict[str, Any]:
         if self.model.oil is None:
@@ -294,7 +315,8 @@ class Element:
                 f"a place of the table where they do not: {self._with_film()}"
             )
         if kind in MIXED:
-            return mixed_scene(self.model, contact, bodies, self._oil_table(), kind, self.modulus)
+            made = mixed_scene(self.model, contact, bodies, self._oil_table(), kind, self._patch_modulus)
+            return made | ({"thermal": "off"} if self._layered else {})
         shared = {
             **bodies,
             "oil": self._oil_table(),
@@ -309,7 +331,7 @@ class Element:
             return {**shared, "ball": {"radius": contact.radius, "radius_y": contact.across, "load": contact.load}}
         line_load = contact.line_load(self.modulus)
         width = contact.load / line_load
-        known = all(one.thermal_diffusivity for one in self.bodies)
+        known = all(one.thermal_diffusivity for one in self.bodies) and not self._layered
         return {
             "thermal": self.model.thermal if known else "off",  # heat needs the constants of both materials
             **shared,
@@ -337,7 +359,7 @@ class Element:
 
     def _dry(self, contact: ElementContact, bodies: dict[str, Any]) -> dict[str, Any]:
         hertz = contact.hertz(self.modulus)
-        half = contact.half_width(self.modulus)
+        half = contact.half_width(self._patch_modulus)
         if contact.length is not None:
             side = 4 * half
             return {

@@ -66,19 +66,17 @@ def element_figure(element: Element, runs: Sequence[Running]) -> Figure:
 
 
 def _bush(element: Element, model: PlainBushModel, figure: Figure) -> Figure:
-    """Draw the pressure around a bush beside Hertz', and where a wear rate is known the worn depth over time."""
+    """Draw the pressure of a bush beside the equivalent cylinder's, and with a wear rate the worn depth over time."""
     import numpy as np
 
-    found, hertz = model.conforming, model.contact().hertz(element.modulus)
+    found, flat = model.conforming, model.cylinder
     worn = bool(model.specific_wear_rate)
     panels = figure.subplots(1, 2 if worn else 1, squeeze=False)[0]
     half = math.degrees(found.half_angle)
     at = np.concatenate([[-half], np.degrees(found.angles[::-1]), [half]])
     panels[0].plot(at, 1e-6 * np.concatenate([[0.0], found.pressures[::-1], [0.0]]), color="C0", label="shaft in bush")
-    width = math.degrees(model.contact().half_width(element.modulus) / model.bodies.radius)
-    share = np.linspace(-1, 1, 201)
-    panels[0].plot(width * share, 1e-6 * hertz.maximum_pressure * np.sqrt(1 - share**2), "--", color="0.5",
-                   label="Hertz, equivalent cylinder")  # fmt: skip
+    flat_at = np.degrees(flat.angles) * model.bodies.cylinder.radius / model.bodies.radius
+    panels[0].plot(flat_at, 1e-6 * flat.pressures, "--", color="0.5", label="equivalent cylinder on a flat")
     panels[0].axhline(1e-6 * model.mean_pressure, color="C1", linewidth=0.9, label="mean, F/(d L)")
     panels[0].set_xlabel("angle from the load line (deg)")
     panels[0].set_ylabel("pressure (MPa)")

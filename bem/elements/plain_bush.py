@@ -1,9 +1,9 @@
 """A plain bush: a shaft that turns or swings in a fixed bush under a load of fixed direction, dry or lubricated.
 
 The contact is `bem.elements.conforming`; films and scenes are of the equivalent cylinder on a flat, whose gap is that
-of shaft and bush near the load line. The bush may have a wall, bonded to its housing. Wear follows Archard with the
-whole load and takes off the bush alone. Thermal expansion, which may close the clearance of a polymer bush, its creep
-and its softening with temperature are left out. Verified in tests/elements/test_plain_bush.py.
+of shaft and bush near the load line. A bush with a wall is bonded to its housing, and a layer on it in scenes. Wear
+follows Archard with the whole load and takes off the bush alone. Thermal expansion, which may close the clearance of a
+polymer bush, its creep and its softening with temperature are left out. Verified in tests/elements/test_plain_bush.py.
 """
 
 from __future__ import annotations
@@ -17,11 +17,14 @@ from pydantic import Field, model_validator
 from bem.elements.conforming import ConformingBodies, ConformingContact, conforming_contact
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
+from bem.materials import CATALOGUE, Material
 from bem.notes import Note
 from bem.notes.elements import BUSH_CONFORMS, BUSH_SWINGS
 from bem.scenes.common import MaterialScene, PositiveLength, Table, problem
 from bem.scenes.units import Angle, Dimension, Force, Rate, Ratio, RotationSpeed, Temperature
 
+HOUSING = "steel-52100"
+"""Material around a wall where none is given; any metal is nearly rigid beside a polymer."""
 ROOM = 293.15
 """Temperature of the surroundings where none is given [K]."""
 DRY_FRICTION = 0.35
@@ -34,8 +37,8 @@ SERVICE_TEMPERATURES = {
     "peek": (523.15, "continuous use of PEEK: W. Hufenbach, K. Kunze and J. Bijwe (2003), introduction"),
 }
 """Highest temperature of a bush by material of the catalogue [K], with its source."""
-FAR_FROM_HERTZ = 0.05
-"""Deviation of Hertz' peak pressure from that of the conforming contact above which it is said."""
+FAR_FROM_CYLINDER = 0.05
+"""Deviation of the equivalent cylinder's peak pressure from that of the conforming contact above which it is said."""
 PressureVelocity = Annotated[float, Dimension("W/m^2", "a pressure times a speed", "0.2 MPa*m/s")]
 
 
@@ -50,7 +53,7 @@ class PlainBushModel(ElementModel):
     """A shaft in a bush. Body 1 is the shaft, body 2 the bush.
 
     `clearance`: bore less shaft diameter. `wall`: thickness of the bush; without it the material of the bush has no
-    end. `housing`: material around a bush with a wall; rigid without it. `speed` or `oscillation`. `friction`:
+    end. `housing`: material around a bush with a wall, steel without it. `speed` or `oscillation`. `friction`:
     coefficient of the whole bush; without it that of dry bushes, or with an oil that of film and asperities.
     `pv_limit`: highest mean pressure times sliding speed. `maximum_temperature`: of the bush. `permitted_wear`: depth
     at the load line at which the bush is worn out.
@@ -119,8 +122,18 @@ class PlainBushModel(ElementModel):
         """Shaft and bush of the conforming contact."""
         return ConformingBodies(
             self.first.build(), self.second.build(), 0.5 * (self.shaft_diameter + self.clearance),
-            self.radial_clearance, self.wall, None if self.housing is None else self.housing.build(),
+            self.radial_clearance, self.wall, None if self.wall is None else self.housing_material,
         )  # fmt: skip
+
+    @property
+    def housing_material(self) -> Material:
+        """Material around the wall."""
+        return CATALOGUE[HOUSING].material if self.housing is None else self.housing.build()
+
+    @cached_property
+    def cylinder(self) -> ConformingContact:
+        """Contact of the equivalent cylinder on a flat, of which films and scenes are."""
+        return conforming_contact(self.bodies.cylinder, self.line_load)
 
     @cached_property
     def conforming(self) -> ConformingContact:
@@ -152,12 +165,17 @@ class PlainBushModel(ElementModel):
         radii = (0.5 * self.shaft_diameter, -0.5 * (self.shaft_diameter + self.clearance))
         return ElementContact("load line", 0.0, self.radial_load, radii, (self.sliding_speed, 0.0), length=self.length)
 
-    def hertz_deviation(self) -> tuple[float, float]:
-        """Return how far Hertz' peak pressure and half-width are from those of the conforming contact, over these."""
-        modulus = self.bodies.modulus
-        hertz = self.contact().hertz(modulus).maximum_pressure
-        width = self.contact().half_width(modulus) / self.bodies.radius
-        return hertz / self.conforming.maximum_pressure - 1, width / self.conforming.half_angle - 1
+    @property
+    def film_modulus(self) -> float:
+        """Contact modulus [Pa] with which a plain cylinder is as wide as the equivalent one, under its layer or not."""
+        half_width = self.cylinder.half_angle * self.bodies.cylinder.radius
+        return 4 * self.line_load * self.bodies.equivalent_radius / (math.pi * half_width**2)
+
+    def cylinder_deviation(self) -> tuple[float, float]:
+        """Return the relative deviations of the equivalent cylinder's peak pressure and width from the bush's."""
+        width = self.cylinder.half_angle * self.bodies.cylinder.radius / self.bodies.radius
+        pressure = self.cylinder.maximum_pressure / self.conforming.maximum_pressure
+        return pressure - 1, width / self.conforming.half_angle - 1
 
     def contacts(self) -> Contacts:
         """The one contact at the load line."""
@@ -165,12 +183,10 @@ class PlainBushModel(ElementModel):
 
     def _notes(self) -> tuple[Note, ...]:
         notes = []
-        pressure, width = self.hertz_deviation()
-        if abs(pressure) > FAR_FROM_HERTZ:
-            notes.append(BUSH_CONFORMS(
-                angle=math.degrees(self.conforming.half_angle), pressure=pressure, width=width,
-                cause="" if self.wall is None else " and the wall is thin", film=(1 + width) ** -0.8,
-            ))  # fmt: skip
+        pressure, width = self.cylinder_deviation()
+        if abs(pressure) > FAR_FROM_CYLINDER:
+            angle = math.degrees(self.conforming.half_angle)
+            notes.append(BUSH_CONFORMS(angle=angle, pressure=pressure, width=width))
         if self.oscillation is not None and self.oil is not None:
             notes.append(BUSH_SWINGS())
         return tuple(notes)

@@ -16,7 +16,9 @@ _UNITS = {
     **dict.fromkeys(("load", "loads"), "N"),
     **dict.fromkeys(("values", "mean_speed", "lower_speed", "upper_speed"), "m/s"),
     **dict.fromkeys(("roughness", "rms_height", "rolloff_wavelength", "cutoff_wavelength"), "m"),
-    **dict.fromkeys(("radius", "radius_y", "radii", "width", "distance", "lengths", "spacing", *"ABCDE"), "m"),
+    **dict.fromkeys(
+        ("thickness", "radius", "radius_y", "radii", "width", "distance", "lengths", "spacing", *"ABCDE"), "m"
+    ),
 }
 """SI units of the keys that `Element.scene` and `Element.path_scene` fill with numbers."""
 

@@ -76,9 +76,8 @@ BUSH_CONFORMS = define(
     "bush-conforms",
     CAUTION,
     "Shaft and bush conform: film and scenes are of a cylinder that deviates.",
-    "The contact reaches {angle:.0f} degrees to either side{cause}. Against it Hertz' contact of the equivalent"
-    " cylinder deviates by {pressure:+.0%} in peak pressure and {width:+.0%} in width; bodies as stiff as the true"
-    " width demands have {film:.0%} of its film.",
+    "The contact reaches {angle:.0f} degrees to either side. Against it the equivalent cylinder on a flat deviates by"
+    " {pressure:+.0%} in peak pressure and {width:+.0%} in width.",
     "Take films, lambda ratio and scenes as estimates.",
 )
 BUSH_SWINGS = define(

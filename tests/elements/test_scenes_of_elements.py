@@ -56,7 +56,9 @@ def test_a_dry_contact_has_the_same_hertz_contact(element):
 @pytest.mark.parametrize("name", MODELS)
 def test_what_the_template_names_runs(name, tmp_path):
     """Dry: the scene's pressure is Hertz'. With oil: the film is as thick as Dowson's fit says."""
-    element = load_element({**tomllib.loads(element_template(name)), "name": name})
+    table = tomllib.loads(element_template(name)) | {"name": name}
+    table = {key: value for key, value in table.items() if key not in ("wall", "housing")}  # without the bush's layer
+    element = load_element(table)
     worst = element.worst()
     made = element.scene(worst, "contact")
     made["grid"]["shape"] = [64, 16] if isinstance(made["grid"]["shape"], list) else 64
