@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import typer
+from matplotlib.figure import Figure
 
 import bem
 from bem import Grid, laws
@@ -26,7 +27,7 @@ from bem.scenes.ranges import parse_axes
 from bem.scenes.walk import is_law
 from bem.surfaces import formats
 from reports import error_bars
-from reports.docs import content, keys, kind_pictures, tasks
+from reports.docs import content, keys, kind_pictures, tasks, theory_pictures
 from reports.docs.directives import docstring_lines
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -388,3 +389,13 @@ def test_tab_completion_installs_and_completes(tmp_path):
         capture_output=True, text=True, timeout=60, check=False,
     )  # fmt: skip
     assert kinds.stdout.split() == ["contact"]
+
+
+@pytest.mark.parametrize("name", theory_pictures.PICTURES)
+def test_pictures_of_the_theory_are_drawn_and_shown(name):
+    draw, size = theory_pictures.PICTURES[name]
+    figure = Figure(figsize=size)
+    draw(figure)
+    assert all(axes.lines for axes in figure.axes)
+    assert (theory_pictures.HERE / f"{name}.png").exists()
+    assert any(f"{name}.png" in page.read_text("utf-8") for page in theory_pictures.HERE.glob("*.md"))
