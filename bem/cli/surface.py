@@ -221,19 +221,27 @@ def _read(
     level_lines: bool,
 ) -> Surface:
     from bem.cli._quantity import pair_of_lengths
+    from bem.errors import InputError
     from bem.surfaces import read_surface
+    from bem.surfaces.read import UnstatedScaleError
 
-    return read_surface(
-        file,
-        # a plain map is a surface already: levelling it again would change its statistics and open its seams
-        detrend=detrend or ("none" if file.suffix.lower() == ".npz" else "plane"),
-        fill=fill,
-        channel=int(channel) if channel is not None and channel.isdigit() else channel,
-        spacing=pair_of_lengths(spacing, "--spacing"),
-        height_unit=height_unit,
-        despike=despike,
-        level_lines=level_lines,
-    )
+    try:
+        return read_surface(
+            file,
+            # a plain map is a surface already: levelling it again would change its statistics and open its seams
+            detrend=detrend or ("none" if file.suffix.lower() == ".npz" else "plane"),
+            fill=fill,
+            channel=int(channel) if channel is not None and channel.isdigit() else channel,
+            spacing=pair_of_lengths(spacing, "--spacing"),
+            height_unit=height_unit,
+            despike=despike,
+            level_lines=level_lines,
+        )
+    except UnstatedScaleError as error:
+        raise InputError(
+            f"{file.name}: does not say how far its points are apart, or in which unit its heights are; allowed: with "
+            '--spacing and --height-unit, such as --spacing "0.5 um" --height-unit nm'
+        ) from error
 
 
 def _show(surface: Surface, name: str) -> None:
@@ -259,7 +267,10 @@ def _show(surface: Surface, name: str) -> None:
         ("spacing", " x ".join(metres(s) for s in surface.spacing)),
         *([] if told is None else [("spacing in the file, not taken", " x ".join(metres(s) for s in told))]),
         ("size", " x ".join(metres(s) for s in surface.lengths)),
-        ("Sq, rms height", metres(d.Sq) + (f" ± {si(error.Sq, 'm', digits=2)}" if error.Sq > 0 else "")),
+        (
+            "Sq, rms height",
+            metres(d.Sq) + (f" ± {_written(error.Sq, _LENGTH, 2, _unit_of(d.Sq))}" if error.Sq > 0 else ""),
+        ),
         ("Sa, mean height", metres(d.Sa)),
         ("Sz, peak to valley", metres(d.Sz)),
         ("Ssk, skewness", f"{d.Ssk:.4g}"),
@@ -288,7 +299,7 @@ def _show(surface: Surface, name: str) -> None:
 
 def _hints(surface: Surface, name: str = "") -> None:
     """Print what an expert would doubt of a map; `name` : of its file, where there are several."""
-    from bem.surfaces.filter import count_spikes
+    from bem.surfaces.filter import MOST_SPIKES, count_spikes
 
     of = f"{name}: " if name else ""
     filled = float(surface.metadata.get("missing_points", 0) or 0) / surface.heights.size
@@ -298,7 +309,7 @@ def _hints(surface: Surface, name: str = "") -> None:
             "part without holes, or measure again."
         )
     spikes = 0 if surface.metadata.get("spikes") else count_spikes(surface.heights, surface.spacing)
-    if spikes:
+    if 0 < spikes < MOST_SPIKES * surface.heights.size:
         print(
             f"{of}{spikes} points stand out of their neighbourhood by more than 6 standard deviations: spikes of the "
             "instrument? --despike 6 removes them."

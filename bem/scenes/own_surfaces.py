@@ -22,8 +22,8 @@ from bem.surfaces.examples import example_path
 KINDS = ("contact", "friction", "running-in", "wear")
 _MOST_FILLED = 0.25
 """Share of missing points of a map above which filling them draws most of what touches."""
-_MOST_SPIKES = 0.005
-"""Share of points that may be outliers of an instrument; more of them are texture."""
+_SAME_SPACING = 0.7
+"""Ratio of the spacings of two maps above which the finer one is taken for the grid."""
 _STEEPEST = 3.0
 """Rms slope above which heights without a unit are not in metres."""
 _MOST_CELLS = 192
@@ -142,6 +142,7 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, 
         for one in found.values():
             if one.resampled:
                 grid |= {"shape": list(one.shape), "lengths": [_length(side) for side in one.lengths]}
+        grid |= _coarser_grid(list(found.values()))
         return data | {"grid": grid, "contact": {"mean_pressure": "20 MPa", "behaviour": "capped"}}
     rms_height = math.hypot(*(one.rms_height for one in found.values()))
     data, length = _fitted(kind, data, spacing, smallest, rms_height)
@@ -194,7 +195,7 @@ def _scale_of(body: str, path: str, scale: MapScale) -> MapScale | None:
 def _read(body: str, path: str, folder: Path, scale: MapScale) -> MeasuredMap:
     """Read a map and choose what its table needs: form removal, and despiking where there are outliers."""
     from bem.surfaces import read_surface
-    from bem.surfaces.filter import count_spikes
+    from bem.surfaces.filter import MOST_SPIKES, count_spikes
 
     surface = read_surface(path, detrend="curvature", **scale.given)
     cells = surface.shape[0] * surface.shape[1]
@@ -209,10 +210,23 @@ def _read(body: str, path: str, folder: Path, scale: MapScale) -> MeasuredMap:
     table: dict[str, Any] = {"kind": "measured", "path": Path(known).as_posix(), **scale.keys}
     table["detrend"] = "curvature"
     spikes = count_spikes(surface.heights, surface.spacing) / cells
-    if 0 < spikes < _MOST_SPIKES:
+    if 0 < spikes < MOST_SPIKES:
         table["despike"] = 6
         surface = read_surface(path, detrend="curvature", despike=6, **scale.given)
     return MeasuredMap(surface.shape, surface.spacing, table, float(surface.heights.std()))
+
+
+def _coarser_grid(maps: list[MeasuredMap]) -> dict[str, Any]:
+    """Return keys of a grid of the coarser spacing on the area of both maps; none of maps of one spacing.
+
+    Between the points of the coarser map there is no roughness: on cells of the finer one it would be interpolated.
+    """
+    spacing = [max(one.spacing[axis] for one in maps) for axis in (0, 1)]
+    if all(one.spacing[axis] > _SAME_SPACING * spacing[axis] for one in maps for axis in (0, 1)):
+        return {}
+    lengths = [min(one.lengths[axis] for one in maps) for axis in (0, 1)]
+    shape = [math.floor(length / side * (1 + 1e-9)) for length, side in zip(lengths, spacing, strict=True)]
+    return {"shape": shape, "lengths": [_length(n * side) for n, side in zip(shape, spacing, strict=True)]}
 
 
 def _half_width(kind: str, data: Mapping[str, Any]) -> float:

@@ -110,6 +110,10 @@ def level_lines(heights: FloatArray) -> FloatArray:
     return heights - np.where(measured, offsets - whole, 0.0)[None, :]
 
 
+MOST_SPIKES = 0.005
+"""Share of points that may be spikes of an instrument; more points that stand out are texture."""
+
+
 def count_spikes(heights: FloatArray, spacing: tuple[float, float], threshold: float = 6.0) -> int:
     """Return the number of points that `despike` would make missing."""
     return int(np.count_nonzero(np.isnan(despike(heights, spacing, threshold)) & ~np.isnan(heights)))

@@ -354,6 +354,8 @@ def test_running_in_with_heat_wears_where_a_boundary_film_is_hot():
     # with what columns and layers leave
     assert full["minimum_film_nm_error"][0] > 0
     assert full["worn_depth_nm_error"][0] > 0
+    depth, volume = (full[f"{name}_error"][0] / full[name][0] for name in ("worn_depth_nm", "wear_volume_um3"))
+    assert volume == pytest.approx(depth, rel=1e-9)
     assert hot["minimum_film_nm_error"][0] > 0
     for name in ("contact_temperature_C", "flash_temperature_C"):
         rise = hot[name][0] - 100

@@ -152,3 +152,21 @@ def test_a_scale_is_for_the_file_that_does_not_say_it(tmp_path):
     planned, _ = plan_scene(scene)
     assert planned.lower.surface.spacing == pytest.approx((0.5e-6, 0.5e-6), rel=1e-9, abs=0)
     assert planned.upper.surface.spacing is None
+
+
+def test_a_contact_of_maps_of_unequal_spacing_has_the_cells_of_the_coarser(tmp_path):
+    """0.5 um beside 0.2 um: nothing of the coarser map is interpolated, and the plan has no caution on it."""
+    write_surface(tmp_path / "fine.npz", Surface.generate(
+        Grid((256, 256), (0.2e-6, 0.2e-6), periodic=(True, True)), rms_height=5e-8, seed=4, correlation_length=2e-6
+    ))  # fmt: skip
+    write_surface(tmp_path / "coarse.npz", Surface.generate(
+        Grid((160, 160), (0.5e-6, 0.5e-6), periodic=(True, True)), rms_height=1e-7, seed=5, correlation_length=4e-6
+    ))  # fmt: skip
+    files = {"lower": str(tmp_path / "coarse.npz"), "upper": str(tmp_path / "fine.npz")}
+    scene = tmp_path / "mine.toml"
+    scene.write_text(scene_template("contact", surfaces=files, folder=tmp_path))
+    planned, _ = plan_scene(scene)
+    grid = build.grid_of(planned.grid)
+    assert grid.spacing == pytest.approx((0.5e-6, 0.5e-6), rel=1e-3, abs=0)
+    assert grid.shape == (102, 102)  # 51.2 um of the smaller map
+    assert "map-coarse" not in {note.code for note in scene_warnings(examine(planned))}
