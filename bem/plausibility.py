@@ -136,7 +136,7 @@ RANGES: tuple[UsualRange, ...] = (
         "steel has 470 J/(kg*K), oils 2000, water 4200",
     ),
     UsualRange(
-        "radius", "m", 1e-9, 5.0, ("radius", "radius_y", "ball", "radii", "base_radius", "face_radius"), _LENGTHS
+        "radius", "m", 1e-9, 9.9, ("radius", "radius_y", "ball", "radii", "base_radius", "face_radius"), _LENGTHS
     ),
     UsualRange(
         "length of a body", "m", 1e-6, 5.0,

@@ -8,8 +8,10 @@ does not touch, as in the film's friction. A body at rest under a cylinder is co
 the distance of the cylinder's radius. A law of boundary friction over temperature takes the mean temperature of the
 contact, weighted by pressure. That mean depends on the coefficient in turn. Temperatures are linear in the coefficient:
 two heat conductions, one bracketed root in the coefficient and a third conduction close the loop. The distribution of
-the shear stress over the cells is that at the oil's temperature. Other laws take one conduction and no root. A law that
-rises with temperature may have no such coefficient: the heat runs away. Verified in tests/friction/test_hot_contact.py.
+the shear stress over the cells is that at the oil's temperature. Of repeated cells under a cylinder the heat is the
+mean at each place, so that flashes of single asperities are left out. Other laws take one conduction and no root. A law
+that rises with temperature may have no such coefficient: the heat runs away. Verified in
+tests/friction/test_hot_contact.py.
 """
 
 from __future__ import annotations
@@ -31,12 +33,15 @@ from bem.heat.solution import TemperatureSolution
 from bem.heat.steady import surface_temperature
 from bem.lubrication.thermal.model import FilmHeat
 from bem.notes import Note
+from bem.notes.friction import REPEATED_PATCH
 from bem.notes.lubrication import HEAT_NOT_FOUND
 
 TOLERANCE = 1e-6
 """Relative error: temperature difference of both surfaces over their rise, and coefficient of friction."""
 LARGEST_COEFFICIENT = 1e3
 """Largest coefficient of friction that is tried."""
+LEAST_CELL_PRESSURE = 1e-3
+"""Mean pressure of repeated cells over its maximum from which a place counts as in contact."""
 _HALF = 0.5
 
 
@@ -69,15 +74,28 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
     bulk = float(setup.lubricant.temperature or 0.0)
     moving = speeds if setup.radius is None else _moving(heat, setup.radius, speeds)
     pressure, touching = contact.pressure, contact.pressure > 0
-    filled = filled_part(pressure, contact.area / setup.slices, setup.grid)
-    of_oil = np.abs(_middle_stress(film, setup.grid)) * slide * (1 - contact.touching_fraction)
-    cold = law.mean_coefficient(pressure, filled, slide)
-    # boundary shear stress over the coefficient
-    shape = pressure if law.constant is not None or cold == 0 else law.cell_stress(pressure, filled, slide) / cold
+    grid, cells = setup.film_grid, contact.cells
+    of_oil = np.abs(_middle_stress(film, grid)) * slide * (1 - contact.touching_fraction)
+    if cells is None:
+        filled = filled_part(pressure, contact.area / setup.slices, grid)
+    else:
+        touching = pressure > LEAST_CELL_PRESSURE * pressure.max()
+
+    def coefficient_of(law: BoundaryFriction) -> float:
+        if cells is not None:
+            return cells.mean_coefficient(law, pressure, slide)
+        return law.mean_coefficient(pressure, filled, slide)
+
+    cold = coefficient_of(law)
+    # boundary shear stress over the coefficient; of repeated cells the mean pressure
+    if law.constant is not None or cold == 0 or cells is not None:
+        shape = pressure
+    else:
+        shape = law.cell_stress(pressure, filled, slide) / cold
 
     def solve_heat(coefficient: float) -> TemperatureSolution:
         made = of_oil + coefficient * slide * shape
-        return surface_temperature(made, setup.grid, heat.bodies, speeds=moving, bulk=(bulk, bulk), tolerance=TOLERANCE)
+        return surface_temperature(made, grid, heat.bodies, speeds=moving, bulk=(bulk, bulk), tolerance=TOLERANCE)
 
     def mean(found: TemperatureSolution) -> float:
         return float((found.temperature * pressure).sum() / pressure.sum())
@@ -96,7 +114,7 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
             return law.at_temperature(at + slope * (value - cold))
 
         def excess(value: float) -> float:
-            return law_at(value).mean_coefficient(pressure, filled, slide) - value
+            return coefficient_of(law_at(value)) - value
 
         consistent = _consistent_coefficient(excess, cold)
         if consistent is None:
@@ -113,7 +131,7 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
         law=law,
         coefficient=coefficient,
         status=status,
-        notes=found.notes,
+        notes=found.notes if cells is None else (*found.notes, REPEATED_PATCH(reason="flash")),
     )
 
 

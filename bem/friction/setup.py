@@ -189,11 +189,11 @@ class MixedSetup:
             return [f"thermal: {self.thermal!r} is unknown; choose from {', '.join(allowed)}"]
         if self.thermal == "full" and self.radii is not None:
             return ['thermal: "full" is not there for the film of a ball; take "lumped" or "off", or a cylinder']
-        if self.repeated_cell:
+        if self.repeated_cell and self.radii is not None:
             return [
                 'thermal: a cell that repeats has no heat of its own; take "off", or a patch that holds the contact'
             ]
-        if self.grid.periodic[0]:
+        if self.grid.periodic[0] and not self.repeated_cell:
             return [
                 "thermal: on a grid periodic along x the heat of the contact warms the bodies for ever; make it free "
                 'along x, or take thermal "off"'

@@ -146,6 +146,12 @@ REPEATED_PATCH = define(
             "Take a patch that holds the contact: grid.periodic = [false, true] and grid.lengths of twice its width.",
             headline="The roughness is too long for a patch that repeats.",
         ),
+        "flash": Reason(
+            "Heat enters at the mean rate of each place of the repeated patch; a hot asperity alone is warmer.",
+            "For temperatures of asperities take a patch that holds the contact.",
+            level=INFO,
+            headline="Contact temperatures leave out flashes of single asperities.",
+        ),
         "edge": Reason(
             "Rough surfaces still touch {length:si m} from the middle, {across:.2g} half-widths of the smooth contact.",
             "Take a patch that holds the contact: grid.periodic = [false, true].",

@@ -297,10 +297,9 @@ def test_what_heat_needs_is_said():
         ({"bodies": STEEL}, "heat enters both bodies; give a pair"),
         ({"thermal": "warm"}, "'warm' is unknown; choose from off, lumped, full"),
         ({"thermal": "full", "supply": 1e-7}, 'supply: not there with thermal "full"'),
-        # refused after the balance, at the first speed with contact
         (
-            {"grid": Grid((64, 64), (0.8e-6, 0.8e-6), periodic=(True, True))},
-            "thermal: a cell that repeats has no heat of its own",
+            {"grid": Grid((64, 64), (0.8e-6, 0.8e-6), periodic=(True, True)), "separation": "film"},
+            "thermal: on a grid periodic along x",
         ),
     ):
         with pytest.raises(InputError, match=words):

@@ -91,10 +91,6 @@ def test_the_curve_runs_from_boundary_friction_to_a_full_film(tmp_path):
     ("changes", "said"),
     [
         ({"grid": {"shape": 64, "lengths": "240 um"}}, r"grid\.periodic = true, a patch of the roughness that repeats"),
-        (
-            {"thermal": "lumped", "oil": {"grade": "ISO VG 10", "temperature": "40 degC"}},
-            'which has no heat; allowed: thermal = "off"',
-        ),
         ({"sharing": {"models": ["capped", "uncoupled"]}}, "no size is given"),
         ({"grid": {"periodic": [False, True]}}, "no size is given"),
         ({"grid": {"shape": 64, "lengths": "240 um", "periodic": True}, "sharing": {"oil_volume": "patch"}}, "repeats"),
@@ -107,3 +103,17 @@ def test_what_a_repeating_patch_has_not_is_said(changes, said):
 
 def test_a_path_alone_means_a_measured_surface():
     assert load_scene(with_surface(path="example/ground-disk.al3d")).lower.surface.kind == "measured"
+
+
+def test_a_repeating_patch_has_the_heat_of_film_and_contact(tmp_path):
+    oil = {"oil": {"grade": "ISO VG 32", "temperature": "40 degC"}}
+    assert planned(ROLLER | oil).thermal == "lumped"
+    short = with_surface(kind="generated", rms_height="0.4 um", correlation_length="20 um")
+    grid = {"shape": 64, "lengths": "320 um", "periodic": True}
+    changes = oil | {"grid": grid, "speeds": {"values": [0.1], "slide_roll_ratio": 2}, "outputs": {"errors": False}}
+    found = run_scene(short | changes | {"film": {"points": 400}}, tmp_path / "hot", figures=False).summary
+    cold = run_scene(short | changes | {"thermal": "off", "film": {"points": 400}}, tmp_path / "cold", figures=False)
+    assert found["status"] == "converged"
+    assert 40 < found["contact_temperature_C"][0] < found["flash_temperature_C"][0] < 60
+    assert found["friction"][0] == pytest.approx(cold.summary["friction"][0], rel=0.02)
+    assert [note["text"] for note in found["notes"] if "flashes of single asperities" in note["text"]]

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from bem.errors import InputError
 from bem.scenes import build
 from bem.scenes.axes import with_keys
 from bem.scenes.common import GeneratedSurface, MeasuredSurface
@@ -88,16 +87,6 @@ def _cells(lengths: list[float], spacing: list[float]) -> tuple[int, int] | None
 
 
 def _repeating(scene: Any, size: dict[str, Any]) -> Any:
-    """Return the scene on a patch that repeats.
-
-    Raises
-    ------
-    InputError : heat that was asked for.
-    """
-    if "thermal" in scene.model_fields_set and scene.thermal != "off":
-        raise InputError(
-            f'thermal: "{scene.thermal}" on a rough patch that repeats under the contact, which has no heat; allowed: '
-            'thermal = "off", or a [grid] that holds the contact'
-        )
+    """Return the scene on a patch that repeats."""
     keys = {f"grid.{name}": value for name, value in ({"periodic": (True, True)} | size).items()}
-    return with_keys(scene, {**keys, "thermal": "off"})
+    return with_keys(scene, keys)

@@ -153,8 +153,9 @@ _PAG = 'give an ISO grade with base = "pag", such as grade = "ISO VG 220", base 
 _NO_OIL = {
     "grease": "grease has no entry: take its base oil, by grade or viscosities from the maker's sheet, and a table "
     "[supply] where the contact starves",
-    "water": 'water has no entry: give viscosity = "0.653 mPa*s" (at 40 degC) and pressure_viscosity = "0 1/GPa" in '
-    '[oil], its films are isoviscous; for heat also temperature = "40 degC", density = "992 kg/m^3", heat_capacity = '
+    "water": 'water has no entry: give viscosity = "0.653 mPa*s" (at 40 degC; 1.00 at 20, 0.890 at 25, 0.466 at 60) '
+    'and pressure_viscosity = "0 1/GPa" in [oil], its films are isoviscous; for heat also temperature = "40 degC", '
+    'density = "992 kg/m^3", heat_capacity = '
     '"4180 J/(kg*K)", thermal_conductivity = "0.63 W/(m*K)" and temperature_viscosity = "0.019 1/K"',
     **dict.fromkeys(("pag", "polyglycol", "polyalkylene"), f"the grade is missing: {_PAG}"),
 }

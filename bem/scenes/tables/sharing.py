@@ -89,10 +89,11 @@ class HotMixedScene(MixedScene):
 
     @property
     def can_be_hot(self) -> bool:
-        """Return True if heat of film and surfaces is defined: the constants are known, and the patch does not repeat
-        along x."""
-        periodic = self.cell_repeats or self.grid.periodic[0]
-        return not periodic and knows_film_heat(self.oil, self.lower, self.upper)
+        """Return True if heat of film and surfaces is defined: the constants are known, and the patch repeats neither
+        under a ball nor, as a strip without end, along x."""
+        ball = self.contact.point_radii is not None
+        endless = self.grid.periodic[0] and not self.cell_repeats
+        return not endless and not (ball and self.cell_repeats) and knows_film_heat(self.oil, self.lower, self.upper)
 
     @model_validator(mode="after")
     def _heat(self) -> Self:
@@ -103,12 +104,12 @@ class HotMixedScene(MixedScene):
         check_film_heat(self.oil, self.lower, self.upper)
         if self.contact.point_radii is not None and self.thermal == "full":
             raise problem(_of_a_ball('thermal = "full"'), 'thermal = "lumped" or "off", or a cylinder')
-        if self.cell_repeats:
+        if self.cell_repeats and self.contact.point_radii is not None:
             raise problem(
-                f'thermal = "{self.thermal}" on a rough patch that repeats under the contact (grid.periodic = true)',
+                f'thermal = "{self.thermal}" on a rough patch that repeats under a ball (grid.periodic = true)',
                 'thermal = "off", or a patch that holds the contact',
             )
-        if self.grid.periodic[0]:
+        if self.grid.periodic[0] and not self.cell_repeats:
             raise problem(
                 f'thermal = "{self.thermal}" on a grid periodic along x, whose heat warms the bodies for ever',
                 'a grid free along x, or thermal = "off"',
