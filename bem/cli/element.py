@@ -165,10 +165,13 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
 def _spelled(name: str, value: float) -> str:
     """A number in the unit of its column's name, "load [N]"."""
     from bem.plots.report import spelled
+    from bem.quantities import with_unit
 
     unit = name.partition(" [")[2].removesuffix("]")
     if unit == "K":
         return "" if math.isnan(value) else f"{value - 273.15:.4g} °C"
+    if unit == "m/s":
+        return with_unit(value, unit)
     return "" if math.isnan(value) else spelled(f"x_{unit}" if unit else "x", value)[1]
 
 
@@ -282,6 +285,7 @@ _HEADS = {
     "load [N]": "load",
     "radius [m]": "radius",
     "hertz_pressure [Pa]": "Hertz pressure",
+    "peak_pressure [Pa]": "peak pressure of shaft in bush",
     "entrainment_speed [m/s]": "entrainment speed",
     "slide_roll_ratio": "slide-roll",
     **_BY_FORMULA,

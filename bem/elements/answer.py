@@ -204,6 +204,8 @@ def place_words(element: Element, one: ElementContact) -> str:
 
 def contact_words(element: Element, one: ElementContact) -> str:
     """Return a contact's pressure, load, radius and speeds in words."""
+    if isinstance(element.model, PlainBushModel):
+        return pressure_words(element.model)
     hertz = one.hertz(element.modulus)
     sliding = abs(one.speeds[0] - one.speeds[1])
     moves = f"entrainment {abs(one.mean_speed):.3g} m/s" + (

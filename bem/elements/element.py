@@ -166,6 +166,8 @@ class Element:
         if isinstance(self.model, PlainBushModel):
             found["peak_pressure [Pa]"] = [self.model.conforming.maximum_pressure]
             found["half_angle [rad]"] = [self.model.conforming.half_angle]
+            if self._layered:  # no contact of Hertz
+                del found["hertz_pressure [Pa]"], found["half_width [m]"]
         if self.model.oil is not None and not self._layered:  # the fit knows no layers
             oil = self._film_oil().build()
             films = [one.minimum_film(modulus, oil) for one in contacts]

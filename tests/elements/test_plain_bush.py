@@ -204,6 +204,13 @@ def test_the_command(tmp_path):
     assert "half-angle 21.0 deg, peak pressure 4.86 MPa" in done.stdout
     assert "The bush becomes too hot" in done.stdout + done.stderr
     assert (tmp_path / "all.png").stat().st_size > 1000
+    shown = bem("element", "pump.toml", "--contacts").stdout
+    assert "4.86" in shown
+    assert "Hertz" not in shown
+    (tmp_path / "cases.csv").write_text("name, radial_load [N], speed [rpm]\nlow, 100, 300\nhigh, 500, 100\n")
+    cases = bem("element", "pump.toml", "--cases", "cases.csv").stdout
+    assert "250 kPa" in cases
+    assert "105 mm/s" in cases
     mixed = bem("element", "pump.toml", "--scene", "mixed.toml", "--kind", "friction")
     assert mixed.returncode == 0, mixed.stderr
     assert 'kind = "friction"' in (tmp_path / "mixed.toml").read_text()
