@@ -452,7 +452,7 @@ def _written(value: float, how: str, digits: int, unit: tuple[float, str]) -> st
     if not math.isfinite(value):
         return ""
     if how == _LENGTH:
-        return f"{value / unit[0]:.{digits}g} {unit[1]}"
+        return f"{float(f'{value / unit[0]:.{digits}g}'):g} {unit[1]}"  # 160 nm, not 1.6e+02 nm
     if how == _SHARE:
         return f"{value:.1%}"
     return f"{value * (1e-6 if how == _PER_AREA else 1.0):.{digits}g}"
