@@ -133,7 +133,19 @@ class StiffnessScene(Table):
     c66: PositivePressure | None = key("Stiffness in shear xy.", "advanced", default=None)
     matrix: (
         Annotated[list[Annotated[list[Pressure], Field(min_length=6, max_length=6)]], Field(min_length=6)] | None
-    ) = key('All stiffnesses as six rows, of crystal = "general".', "expert", default=None)
+    ) = key(
+        'All stiffnesses as six rows, of crystal = "general".',
+        "expert",
+        default=None,
+        example=[
+            ["166 GPa", "64 GPa", "64 GPa", 0, 0, 0],
+            ["64 GPa", "166 GPa", "64 GPa", 0, 0, 0],
+            ["64 GPa", "64 GPa", "166 GPa", 0, 0, 0],
+            [0, 0, 0, "80 GPa", 0, 0],
+            [0, 0, 0, 0, "80 GPa", 0],
+            [0, 0, 0, 0, 0, "80 GPa"],
+        ],
+    )
 
     @model_validator(mode="after")
     def _its_constants(self) -> Self:

@@ -72,3 +72,22 @@ def test_contact_solver_finds_the_ellipse() -> None:
     order = np.log2(errors[0] / errors[2]) / 2
     assert order > 1.2  # 1.5 at the edge of a square-root pressure
     assert errors[2] < 1e-3
+
+
+@pytest.mark.parametrize("rows", [1, 4])
+def test_cylinder_on_a_crystal_is_hertz_with_the_modulus_across_it(rows: int) -> None:
+    """In generalised plane strain only waves along x count: E* = 2 / A(0)."""
+    modulus = 2 / float(ON_110.surface_compliance(np.array([0.0]))[0])
+    load, radius = 1e4, 1e-3  # [N/m], [m]
+    half_width = math.sqrt(4 * load * radius / (math.pi * modulus))
+    assert abs(modulus / ON_110.plane_strain_modulus - 1) > 0.05  # another one than under a ball
+    cells = 128
+    grid = Grid((cells, rows), (2.6 * half_width / cells, 1e-4 / rows), periodic=(False, True))
+    gap = np.repeat(grid.x[:, None] ** 2 / (2 * radius), rows, axis=1)
+    found = solve_contact(
+        gap, displacement_operator(grid, Body(Material("copper", stiffness=ON_110))), load=load * 1e-4
+    )
+    exact = 2 * load / (math.pi * half_width) * np.sqrt(np.maximum(0, 1 - (grid.x / half_width) ** 2))
+    assert np.abs(found.pressure - exact[:, None]).max() < 0.04 * exact.max()
+    assert found.maximum_pressure == pytest.approx(exact.max(), rel=2e-4)
+    assert found.contact_area == pytest.approx(2 * half_width * 1e-4, rel=2e-3, abs=0)
