@@ -98,12 +98,14 @@ def _scattered(side: int, one: Running) -> float:
 
 
 def likely_power(element: Element, runs: Sequence[Running]) -> float:
-    """Return the likely friction power [W]: of gears with roughness by the fit to gear tests, of others with asperity
-    contact, without roughness that of the films."""
+    """Return the likely friction power [W]: of gears with roughness by the fit to gear tests, of a bush by a given
+    friction coefficient, of others with asperity contact, without roughness that of the films."""
     if isinstance(element.model, GearModel):
         tests = friction_of_gear_tests(element)
         if tests is not None:
             return sliding_power(element, tests.power)
+    if isinstance(element.model, PlainBushModel) and element.model.friction is not None:
+        return element.model.friction * element.model.radial_load * element.model.sliding_speed
     power = friction_power(element, runs)
     return power.film if power.with_asperities is None else power.with_asperities
 

@@ -84,6 +84,17 @@ def test_a_lubricated_bush_has_a_film_and_its_friction():
     assert BUSH_SWINGS.code in codes(load_element(swings).notes())
 
 
+def test_a_given_friction_heats_a_lubricated_bush():
+    """The balance is that of the given coefficient, at which the film is then solved."""
+    balance = {"conductance": "2 W/K", "ambient": "30 degC"}
+    element = balance_heat(load_element(WATER | {"friction": 0.1, "heat_balance": balance}))
+    power = 0.1 * 500 * element.model.sliding_speed
+    assert element.model.bulk_temperature == pytest.approx(303.15 + power / 2, abs=0.2)
+    said = dict(answer(element, ()))
+    assert said["friction power"].startswith(f"{power:.3g} W")
+    assert f"bush {30 + power / 2:.4g} °C" in said["temperatures"]
+
+
 def test_a_wall_is_a_layer_of_films_and_scenes(tmp_path):
     """The scene's pressure is that of the equivalent cylinder by harmonics, and its film thinner than without wall."""
     element = load_element(WATER)
