@@ -160,7 +160,7 @@ def _widen_under_tension(
                 for step in (-1, 1):
                     inside &= np.roll(touching, step, axis)
     highest = float(case.solution.pressure.max(initial=0.0, where=inside))
-    grid["max_pressure"] += fine["max_pressure"] - min(highest, fine["max_pressure"])
+    grid["max_pressure"] += _FIRST_ORDER * (fine["max_pressure"] - min(highest, fine["max_pressure"]))
 
 
 def touches_sharply(case: ContactCase) -> bool:

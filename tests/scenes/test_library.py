@@ -23,6 +23,7 @@ NEEDS_FILES = {name for name, table in library().items() if '"path"' in json.dum
 EXPECTED_WARNINGS = {
     "adhesive-sphere": {"viscoelastic_material"},
     # rubber, slope one and waves of two cells: the challenge's own numbers on a grid that a run of a minute allows
+    "tense-gel-ball": {"viscoelastic_material"},
     "contact-challenge": {"viscoelastic_material", "steep_roughness", "few_cells_per_wave"},
     "asperities-given-film": {"patch_sinks_at_given_separation"},  # the source's square and its given separation
     "micropitting-rig": {"patch_of_few_correlation_lengths"},  # ridges of longitudinal lay are as long as the contact
