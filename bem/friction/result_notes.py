@@ -34,6 +34,8 @@ MATTERS = 0.05
 The film model counts no shear stress on the part of a cell that is in contact, as in the thesis. The comparison with
 the roughness in Reynolds' equation itself is in `reports/experiments/rough_films.py`.
 """
+THICK_LAYER, UNLIKE_LAYER = 0.5, 2.0
+"""Thickness of a layer in half-widths, and ratio of plane-strain moduli, above which the layer decides the film."""
 DECIDES = 0.2
 """Fraction of friction that oil on cells in contact would add, from which the note is a caution."""
 
@@ -68,10 +70,20 @@ def contact_notes(balance: Balance, forces: Forces) -> tuple[Note, ...]:
 def coating_notes(setup: MixedSetup) -> tuple[Note, ...]:
     """Return a note on coated bodies, whose layers only the rough contact feels."""
     bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
-    thickest = max((body.interfaces[-1] for body in bodies if body.layers), default=0.0)
-    if thickest == 0:
+    coated = [body for body in bodies if body.layers]
+    if not coated:
         return ()
-    return (FILM_WITHOUT_LAYERS(ratio=float(thickest / setup.smooth.half_axes(setup.load)[0])),)
+    half_width = setup.smooth.half_axes(setup.load)[0]
+    thickest = max(body.interfaces[-1] for body in coated)
+    for body in coated:
+        for layer in body.layers:
+            ratio, stiffer = (
+                layer.thickness / half_width,
+                body.material.plane_strain_modulus / layer.material.plane_strain_modulus,
+            )
+            if ratio > THICK_LAYER and max(stiffer, 1 / stiffer) > UNLIKE_LAYER:
+                return (FILM_WITHOUT_LAYERS(ratio=float(ratio), stiffer=float(stiffer), reason="thick"),)
+    return (FILM_WITHOUT_LAYERS(ratio=float(thickest / half_width), reason="thin"),)
 
 
 def coupling_notes(forces: Forces, traction: float, setup: MixedSetup) -> tuple[Note, ...]:

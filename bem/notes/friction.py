@@ -58,7 +58,16 @@ FILM_WITHOUT_LAYERS = define(
     "film-without-layers",
     INFO,
     "The film is that between uncoated bodies.",
-    "Only the rough contact feels the layers, which are {ratio:.2g} of the contact's half-width thick.",
+    reasons={
+        "thin": "Only the rough contact feels the layers, which are {ratio:.2g} of the contact's half-width thick.",
+        "thick": Reason(
+            "Film, half-width and patch are those of the bodies below the layers, whose modulus is {stiffer:.2g} times"
+            " that of a layer {ratio:.2g} half-widths thick.",
+            "Give the layer's material as that of the body.",
+            level=OUTSIDE_MODEL,
+            headline="A layer as thick as the contact is wide is left out of the film.",
+        ),
+    },
 )
 OIL_ON_CONTACT = define(
     "oil-on-contact",

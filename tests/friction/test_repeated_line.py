@@ -3,14 +3,16 @@
 import numpy as np
 import pytest
 
-from bem import Body, Grid, Lubricant, Material, generate_surface, solve_mixed
+from bem import Body, Grid, Layer, Lubricant, Material, generate_surface, solve_mixed
 from bem.accuracy import MixedCase, mixed_bars, solve_coarser_mixed
 from bem.accuracy.mixed import mixed_figures
 from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
 from bem.friction.models import films_of, rough_contact
+from bem.friction.result_notes import coating_notes
 from bem.friction.setup import MixedSetup
 from bem.friction.solve import solve_setup
+from bem.notes import Level
 from bem.surfaces.waves import on_cells
 
 STEEL = Body(Material(name="steel", youngs_modulus=207e9, poissons_ratio=0.3))
@@ -156,3 +158,18 @@ def test_error_bars_cover_the_finer_patch():
         assert bar is not None
         assert abs(coarse[name] - fine[name]) <= bar
     assert 0 < bars["friction"] < 0.05 * coarse["friction"]
+
+
+@pytest.mark.internal
+def test_a_soft_layer_thicker_than_the_contact_is_outside_the_film_s_model():
+    soft = Material(name="polymer", youngs_modulus=3.7e9, poissons_ratio=0.4)
+
+    def notes(thickness, material=soft):
+        coated = Body(STEEL.material, layer=Layer(material, thickness))
+        return coating_notes(MixedSetup(**{**LINE, "grid": CELL, "bodies": (STEEL, coated)}))
+
+    (note,) = notes(100e-6)
+    assert note.level is Level.OUTSIDE_MODEL
+    assert note.values["stiffer"] == pytest.approx(227.5 / 4.405, rel=1e-3)
+    for thin in (notes(20e-6), notes(100e-6, STEEL.material)):
+        assert [note.level for note in thin] == [Level.INFO]
