@@ -93,6 +93,8 @@ def test_the_curve_runs_from_boundary_friction_to_a_full_film(tmp_path):
         ({"grid": {"shape": 64, "lengths": "240 um"}}, r"grid\.periodic = true, a patch of the roughness that repeats"),
         ({"sharing": {"models": ["capped", "uncoupled"]}}, "no size is given"),
         ({"grid": {"periodic": [False, True]}}, "no size is given"),
+        ({"lower": {"material": "steel-52100", "surface": {"process": "polished"}}}, "allowed: both in lower.surface"),
+        ({"upper": {"material": "peek", "surface": {"process": "ground", "correlation_length": "2 mm"}}}, "1024 along"),
         ({"grid": {"shape": 64, "lengths": "240 um", "periodic": True}, "sharing": {"oil_volume": "patch"}}, "repeats"),
     ],
 )

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from bem.errors import InputError
 from bem.scenes import build
 from bem.scenes.axes import with_keys
 from bem.scenes.common import GeneratedSurface, MeasuredSurface
@@ -30,7 +31,11 @@ def with_patch(scene: Any) -> Any:
     """Return a scene of kind friction with the size of its rough patch, where a cylinder gives none.
 
     The patch of measured surfaces is that of the files; it repeats where it is smaller than the contact. Scenes that
-    give sizes, balls, and scenes without roughness that tells a size come back as they are.
+    give sizes, balls, and scenes without roughness come back as they are.
+
+    Raises
+    ------
+    InputError : roughness that tells no size, or too large a one.
     """
     if not _leaves_it_out(scene):
         return scene
@@ -45,16 +50,19 @@ def with_patch(scene: Any) -> Any:
         repeats = found.shape[0] * found.spacing[0] < 2 * half_width
         return _repeating(scene, {}) if repeats else scene
     sizes = [_sizes(surface) for surface in surfaces if isinstance(surface, GeneratedSurface)]
-    if not sizes or any(size is None for size in sizes):
+    if not sizes:
         return scene
+    if any(size is None for size in sizes):
+        raise InputError(
+            "grid: self-affine roughness without rolloff_wavelength and cutoff_wavelength tells no size of a patch; "
+            "allowed: both in lower.surface and upper.surface, or grid.shape and grid.lengths"
+        )
     longest = [max(size[0][axis] for size in sizes if size) for axis in (0, 1)]
     spacing = [min(size[1][axis] for size in sizes if size) for axis in (0, 1)]
     if half_width < FEWEST_LENGTHS_ACROSS * longest[0] / LENGTHS_A_SIDE and not all(scene.grid.periodic):
         longest = [HALF_WIDTHS * half_width, longest[1] * LENGTHS_OF_A_SLICE / LENGTHS_A_SIDE]
-        cells = _cells(longest, spacing)
-        return with_keys(scene, {"grid.shape": cells, "grid.lengths": tuple(longest)}) if cells else scene
-    cells = _cells(longest, spacing)
-    return _repeating(scene, {"shape": cells, "lengths": tuple(longest)}) if cells else scene
+        return with_keys(scene, {"grid.shape": _cells(longest, spacing), "grid.lengths": tuple(longest)})
+    return _repeating(scene, {"shape": _cells(longest, spacing), "lengths": tuple(longest)})
 
 
 def _leaves_it_out(scene: Any) -> bool:
@@ -80,10 +88,20 @@ def _sizes(surface: GeneratedSurface) -> tuple[tuple[float, float], tuple[float,
     return (side, side), (cell, cell)
 
 
-def _cells(lengths: list[float], spacing: list[float]) -> tuple[int, int] | None:
-    """Return even numbers of cells of a patch; None if they are too many."""
+def _cells(lengths: list[float], spacing: list[float]) -> tuple[int, int]:
+    """Return even numbers of cells of a patch.
+
+    Raises
+    ------
+    InputError : too many cells.
+    """
     nx, ny = (2 * math.ceil(0.5 * length / side * (1 - 1e-9)) for length, side in zip(lengths, spacing, strict=True))
-    return (nx, ny) if max(nx, ny) <= MOST_CELLS else None
+    if max(nx, ny) > MOST_CELLS:
+        raise InputError(
+            f"grid: the longest and the shortest waves of the roughness ask for {nx} x {ny} cells; allowed: "
+            f"{MOST_CELLS} along a side, or grid.shape and grid.lengths of your own"
+        )
+    return nx, ny
 
 
 def _repeating(scene: Any, size: dict[str, Any]) -> Any:
