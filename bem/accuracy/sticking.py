@@ -15,9 +15,10 @@ from collections.abc import Container, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.accuracy.bars import GRID, PRESSING, PRESSING_FACTOR, RESIDUAL, ErrorBars
+from bem.accuracy.bars import GRID, PRESSING, PRESSING_FACTOR, RESIDUAL, STEPS, ErrorBars
 from bem.accuracy.coarsened import ContactCase, edge_fraction, regime_of
 from bem.accuracy.richardson import Table, residual_errors, rows
+from bem.notes.accuracy import NoBar
 
 _FORCES = ("force", "force_across")
 _CARRIED = (*_FORCES, "traction_coefficient")
@@ -60,6 +61,38 @@ PUSH_RULES = Table(
 )
 """Pushed contacts. Floors on the figure's fraction within a cell of the edge (edge), on that fraction to the power 3/2
 (counted, centred), and over the square of the cells across the slipping ring (ring)."""
+LIMITED_RULES = Table(
+    "sticking_error_bars",
+    {
+        name: row
+        for name, row in PUSH_RULES.items()
+        if name not in ("stick_fraction", "dissipated", "dissipated_in_cycle")
+    },
+    rows(
+        "force shift first_stiffness moment",
+        (2.0, 1.5),
+        "First order: a shear strength jumps to zero at the edge of contact, which moves by whole cells. Against 100 "
+        "cells, four balls under shear strengths on 36 and 45 cells missed by at most half of this bar.",
+        order=1,
+        edge=(0.05, 0.06),
+    ),
+    rows(
+        "stick_fraction",
+        2.0,
+        "First order. The ring that slips under a shear strength begins with the root of the traction's singularity: "
+        "it may be missed up to the cells at the edge.",
+        order=1,
+        edge=1.0,
+    ),
+    rows(
+        "dissipated dissipated_in_cycle",
+        2.0,
+        "First order. Rings of less than a cell have no bar.",
+        order=1,
+        ring=0.5,
+    ),
+)
+"""Pushed contacts whose traction is bounded by a law other than friction x pressure."""
 ROLL_RULES = Table(
     "sticking_error_bars",
     rows(
@@ -110,11 +143,12 @@ def sticking_bars(
 
     Parameters
     ----------
-    rules : `PUSH_RULES` or `ROLL_RULES`.
+    rules : `PUSH_RULES`, `LIMITED_RULES` or `ROLL_RULES`.
     case : the contact without friction.
     fine, coarse : figures on its grid and on that of twice the cell, SI units.
     residual : the largest of all steps and of the contact.
-    fewer : figures on the coarser grid with half the loading steps; None where the load comes at once.
+    fewer : figures on the coarser grid with half the loading steps, or a quarter of a step of rolling earlier; None
+        where the load comes at once.
     given : prescribed figures, which have no error but that of the residual.
     limit : friction x load [N], to which the residuals of forces are relative.
     """
@@ -129,8 +163,12 @@ def sticking_bars(
     parts = {GRID: grid | exact, RESIDUAL: residual_errors(residual, sizes)}
     if fewer is not None:
         steps = {name: PRESSING_FACTOR * abs(coarse[name] - fewer[name]) for name in found}
-        parts[PRESSING] = steps | exact
-    return ErrorBars.together(parts)
+        parts[STEPS if rules is ROLL_RULES else PRESSING] = steps | exact
+    bars = ErrorBars.together(parts)
+    if rules is LIMITED_RULES and cells_across_ring(fine["stick_fraction"], edge_fraction(case)) < 1:
+        for name in ("dissipated", "dissipated_in_cycle"):
+            bars = bars.without(name, NoBar.NARROW_RING) if name in bars.values else bars
+    return bars
 
 
 def _indicators(

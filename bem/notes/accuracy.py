@@ -26,6 +26,7 @@ class NoBar(StrEnum):
     FREE_EDGE = "free-edge"
     FEW_CELLS_WIDE = "few-cells-wide"
     IMPOSSIBLE = "impossible"
+    NARROW_RING = "narrow-ring"
     SHARP_PRESSURE = "sharp-pressure"
     EVEN_CELLS = "even-cells"
     EVEN_CELLS_OF_LOOP = "even-cells-of-loop"
@@ -62,6 +63,7 @@ NO_ERROR_BAR = define(
             "The contact is one or two cells wide, and its figures follow the cells; take a finer grid."
         ),
         NoBar.IMPOSSIBLE: "What is prescribed cannot be met on the grid of twice the cell.",
+        NoBar.NARROW_RING: "The zone that slips is narrower than a cell, and its energy follows the cells; take more.",
         NoBar.SHARP_PRESSURE: "The contact has sharp edges or ridges, where the pressure has no limit.",
         NoBar.EVEN_CELLS: "Error bars need even numbers of cells, {fewest} at least.",
         NoBar.EVEN_CELLS_OF_LOOP: (

@@ -240,11 +240,16 @@ def test_friction_up_to_a_shear_strength_is_abel_s():
     material = CATALOGUE["steel-52100"].material
     shear = material.youngs_modulus / (2 * (1 + material.poissons_ratio))
     exact = LimitedBall(radius, record.load, 0.4, 150e6, 2 * (2 - material.poissons_ratio) / shear)
-    assert abs(record.force - 0.6 * exact.force(0.0)) < record.errors["force"] < 0.05 * record.force
+    assert abs(record.force - 0.6 * exact.force(0.0)) < record.errors["force"] < 0.1 * record.force
     stick = radius * np.sqrt(record.stick_fraction)  # 40 cells across the grid
     assert record.force == pytest.approx(exact.force(stick), rel=0.02)
     assert record.shift == pytest.approx(exact.shift(stick), rel=0.02)
     assert record.traction_bound.max() < 151e6
+    # the ring that Tresca's law lets slip at a small force is narrower than a cell: its energy is not known
+    narrow, context = run(push={"friction": {"kind": "tresca", "shear_limit": "150 MPa"}, "share": 0.3, "steps": 1})
+    assert narrow.errors["dissipated"] is None
+    assert narrow.errors["stick_fraction"] > 0.02
+    assert any(note.code == "no-error-bar" for note in context.notes)
     falling = {"kind": "falling_linear", "static_friction": 0.4, "kinetic_friction": 0.2, "half_speed": "1 m/s"}
     with pytest.raises(InputError, match="a push has no speed"):
         scene(push={"friction": falling, "share": 0.6})

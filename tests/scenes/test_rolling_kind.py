@@ -163,3 +163,14 @@ def test_messages():
         scene({"friction": -0.1})
     with pytest.raises(InputError, match=r"roll\.friction alone"):
         scene({}, contact={"load": "20 N", "friction": 0.1})
+
+
+def test_bars_of_a_short_history_cover_the_half_cell_of_its_distance():
+    """A ramp over six steps of a cell: curves end at the distance, figures within their bars of finer cells."""
+    ramp = {"distances": ["0 um", "50 um"], "creepages": [0.0, 1e-3]}
+    coarse, _ = run({}, history=ramp)
+    fine, _ = run({}, history=ramp, grid={"shape": 120, "lengths": "300 um"}, outputs={"errors": False})
+    assert coarse.rolled_distance[-1] == fine.rolled_distance[-1] == pytest.approx(5e-5, rel=1e-12)
+    assert coarse.creepage == fine.creepage == pytest.approx(1e-3, rel=1e-12)
+    for name in ("force", "friction_work", "stick_fraction", "traction_coefficient"):
+        assert abs(getattr(coarse, name) - getattr(fine, name)) < coarse.errors[name]

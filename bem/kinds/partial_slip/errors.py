@@ -23,7 +23,7 @@ def bars_of(
 ) -> ErrorBars:
     """Estimate errors from the same steps on the grid of twice the cell, and there with half of those in which the load
     comes."""
-    from bem.accuracy.sticking import PUSH_RULES
+    from bem.accuracy.sticking import LIMITED_RULES, PUSH_RULES
 
     steps = pressing_steps(scene)
 
@@ -42,14 +42,13 @@ def bars_of(
         return Coarse(figures, there.contact(coarser), there.last.traction, converged, fewer, left)
 
     figures = figures_of(scene, path) | extra
+    rules = PUSH_RULES if isinstance(scene.push.friction, float) else LIMITED_RULES
     given: tuple[str, ...] = ("shift",) if scene.push.shift is not None else ("force",)
     if scene.push.share is not None and not isinstance(scene.push.friction, float):
         given = ()  # a share of the sum of the law's bounds, which depends on the cells
     residual = max(site.contact.residual, float(path.column("residual").max()))
     limit = sticking.friction_limit(scene.push.friction, site)
-    return sticking.bars(
-        scene, site, Found(figures, path.contact(site), PUSH_RULES, given, residual, limit, below), again
-    )
+    return sticking.bars(scene, site, Found(figures, path.contact(site), rules, given, residual, limit, below), again)
 
 
 RESOLUTIONS = (CELLS, DEPTHS)

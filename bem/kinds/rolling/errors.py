@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from bem.errors import Status
 from bem.kinds.rolling.scene import RollingContactScene
-from bem.kinds.rolling.solve import rolled_figures, solve_rolled
+from bem.kinds.rolling.solve import quarter_step_before, rolled_figures, solve_rolling_contact, solve_rolling_history
 from bem.scenes import sticking
 from bem.scenes.resolutions import CELLS, DEPTHS
 from bem.scenes.sticking import Coarse, Found, Site
@@ -24,9 +24,16 @@ def bars_of(
     from bem.accuracy.sticking import ROLL_RULES
 
     def again(coarser: Site) -> Coarse:
-        there = solve_rolled(scene, coarser)
-        figures, converged = rolled_figures(coarser, there, scene.roll.spin), there.status is Status.CONVERGED
-        return Coarse(figures, coarser.contact, there.traction, converged)
+        fewer: dict[str, float] | None = None
+        if scene.history is None:
+            there = solve_rolling_contact(scene, coarser)
+            figures = rolled_figures(coarser, there, scene.roll.spin)
+        else:
+            history = solve_rolling_history(scene, coarser)
+            there = history.last
+            figures = rolled_figures(coarser, there, scene.roll.spin)
+            fewer = quarter_step_before(coarser, history, figures)
+        return Coarse(figures, coarser.contact, there.traction, there.status is Status.CONVERGED, fewer)
 
     given: tuple[str, ...] = ("creepage", "creepage_across") if scene.roll.share is None else ("force", "force_across")
     if scene.history is not None and scene.history.shares is not None:

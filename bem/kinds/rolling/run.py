@@ -30,7 +30,7 @@ def run(scene: RollingContactScene, context: Context) -> RollingRecord:
             history = solve_rolling_history(
                 scene, site, lambda done, total: context.progress(done, total, "steps of a cell")
             )
-            found, curves = history.last, history_curves(site, history, scene.roll.spin)
+            found, curves = history.last, history_curves(scene, site, history)
     tell(context, found.notes)
     sticking.tell_coupled(scene, context)
     below = sticking.stresses_under(scene, site.grid, site.contact.pressure, found.traction, context)

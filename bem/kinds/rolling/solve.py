@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -52,7 +53,7 @@ def solve_rolling_history(
             start = solve_partial_slip(
                 site.contact, site.grid, bodies, friction=roll.friction, force=push, tolerance=roll.tolerance
             )
-    return solve_transient_rolling(
+    found = solve_transient_rolling(
         site.contact,
         site.grid,
         bodies,
@@ -63,18 +64,40 @@ def solve_rolling_history(
         after=after,
         **given,
     )
+    if history.shares is not None:
+        return found
+    # creepages are those of the middle of a step; the figure is the prescribed one at the end
+    last = [0.0 if part is None else part[-1] for part in (history.creepages, history.creepages_across)]
+    return replace(found, last=replace(found.last, creepage=np.array(last) + np.array(site.carried(roll.spin))))
 
 
-def solve_rolled(scene: RollingContactScene, site: Site) -> TangentialSolution:
-    """Solve steady rolling, or the history where there is one, and return the state at its end."""
-    return solve_rolling_contact(scene, site) if scene.history is None else solve_rolling_history(scene, site).last
+def quarter_step_before(site: Site, history: RollingHistory, figures: dict[str, float]) -> dict[str, float]:
+    """Return the figures (of `rolled_figures`) a quarter of a step before the end of a history, by its last two steps.
+
+    The distance rolled is known to half a cell, a quarter of a step on the grid of twice the cell.
+    """
+    if len(history.distance) < 2:
+        return figures
+    load = site.contact.load
+    size = np.hypot(*history.force[-2:].T) / load if load > 0 else np.zeros(2)
+    curves = {
+        "force": history.force[-2:, 0],
+        "force_across": history.force[-2:, 1],
+        "traction_coefficient": size,
+        "creepage": history.creepage[-2:, 0],
+        "creepage_across": history.creepage[-2:, 1],
+        "stick_fraction": history.stick_fraction[-2:],
+        "friction_work": history.friction_work[-2:],
+    }
+    return {name: figures[name] - 0.25 * float(values[1] - values[0]) for name, values in curves.items()}
 
 
-def history_curves(site: Site, history: RollingHistory, spin: float) -> dict[str, FloatArray]:
-    """Return the curves over the distance rolled, SI units; `spin` [1/m] of the rolling."""
-    creepage = history.creepage - np.array(site.carried(spin))
+def history_curves(scene: RollingContactScene, site: Site, history: RollingHistory) -> dict[str, FloatArray]:
+    """Return the curves over the distance rolled, SI units."""
+    assert scene.history is not None
+    creepage = history.creepage - np.array(site.carried(scene.roll.spin))
     return {
-        "rolled_distance": history.distance,
+        "rolled_distance": scene.history.ends(site.grid.spacing[0]),
         "rolled_force": history.force[:, 0],
         "rolled_force_across": history.force[:, 1],
         "rolled_creepage": creepage[:, 0],

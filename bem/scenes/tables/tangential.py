@@ -253,13 +253,18 @@ class RollHistory(Table):
         """Return the number of steps of a cell [m]."""
         return max(round(self.distances[-1] / cell), 1)
 
+    def ends(self, cell: float) -> FloatArray:
+        """Return the distances at the ends of the steps (n,) [m]; the last one is exact, the first by half a cell."""
+        steps = self.steps(cell)
+        return np.asarray(self.distances[-1] - np.arange(steps - 1.0, -1.0, -1.0) * cell)
+
     def values(self, cell: float) -> FloatArray:
         """Return the history in each step, (n, 2): creepages in the middle of the step, or shares at its end."""
-        ends = np.arange(1.0, self.steps(cell) + 1)
+        ends = self.ends(cell)
         if self.shares is not None:
-            return np.stack([np.interp(ends * cell, self.distances, self.shares), np.zeros_like(ends)], axis=1)
+            return np.stack([np.interp(ends, self.distances, self.shares), np.zeros_like(ends)], axis=1)
         parts = [self.creepages or [0.0] * len(self.distances), self.creepages_across or [0.0] * len(self.distances)]
-        return np.stack([np.interp((ends - 0.5) * cell, self.distances, part) for part in parts], axis=1)
+        return np.stack([np.interp(ends - 0.5 * cell, self.distances, part) for part in parts], axis=1)
 
 
 class RolledScene(StickingScene):
