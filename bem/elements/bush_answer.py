@@ -14,11 +14,13 @@ from bem.elements.plain_bush import (
     sliding_to_depth,
 )
 from bem.notes import Note
-from bem.notes.elements import BUSH_OVER_LIMIT
+from bem.notes.elements import BUSH_OVER_LIMIT, BUSH_WARMER_THAN_OIL
 from bem.quantities import plain_digits, with_unit
 
 CELSIUS = 273.15
 _HOUR = 3600.0
+_WARMER = 15.0
+"""Excess of the bush over the liquid of its film that is worth a note [K]: viscosities change by 2 to 5 % a kelvin."""
 
 
 def pressure_words(model: PlainBushModel) -> str:
@@ -88,6 +90,9 @@ def bush_notes(model: PlainBushModel, lubricated: float | None) -> tuple[Note, .
     temperature = bush_temperature(model, friction_power_of(model, lubricated)[0]) if known else 0.0
     if highest is not None and temperature > highest:
         notes.append(BUSH_OVER_LIMIT(value=temperature - CELSIUS, limit=highest - CELSIUS, reason="temperature"))
+    liquid = None if model.oil is None or lubricated is None else model.oil.temperature
+    if liquid is not None and temperature > liquid + _WARMER:
+        notes.append(BUSH_WARMER_THAN_OIL(bush=temperature - CELSIUS, oil=liquid - CELSIUS))
     return tuple(notes)
 
 

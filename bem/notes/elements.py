@@ -104,3 +104,11 @@ BUSH_OVER_LIMIT = define(
         ),
     },
 )
+BUSH_WARMER_THAN_OIL = define(
+    "bush-warmer-than-oil",
+    CAUTION,
+    "The bush is warmer than the liquid that its film was solved with.",
+    "The bush has {bush:.0f} °C, given or by the heat balance; its film and friction are those of the liquid at "
+    "{oil:.0f} °C.",
+    "Give the conductance of your housing and of the liquid that flows through (heat_balance), or a warmer liquid.",
+)

@@ -17,7 +17,7 @@ from bem.elements.figure import element_figure
 from bem.elements.plain_bush import DRY_FRICTION, WORN_IN, crescent_distance, sliding_to_depth
 from bem.elements.running import run_all
 from bem.notes.checks import SLOPES_LARGE
-from bem.notes.elements import BUSH_CONFORMS, BUSH_OVER_LIMIT, BUSH_SWINGS, SURFACES_TOUCH
+from bem.notes.elements import BUSH_CONFORMS, BUSH_OVER_LIMIT, BUSH_SWINGS, BUSH_WARMER_THAN_OIL, SURFACES_TOUCH
 
 WATER = tomllib.loads(element_template("plain-bush")) | {"name": "bush"}
 DRY = {key: value for key, value in WATER.items() if key != "oil"}
@@ -93,6 +93,16 @@ def test_a_given_friction_heats_a_lubricated_bush():
     said = dict(answer(element, ()))
     assert said["friction power"].startswith(f"{power:.3g} W")
     assert f"bush {30 + power / 2:.4g} °C" in said["temperatures"]
+
+
+def test_a_bush_warmer_than_its_liquid_is_noted():
+    """Not where conductance or ambience keep both within a few kelvin."""
+    warm = load_element(WATER | {"thermal": "off"})
+    note = next(note for note in answer_notes(warm, run_all(warm)) if note.code == BUSH_WARMER_THAN_OIL.code)
+    assert note.values["oil"] == pytest.approx(40)
+    assert note.values["bush"] > 55
+    cooled = load_element(WATER | {"thermal": "off", "heat_balance": {"conductance": "2 W/K", "ambient": "40 degC"}})
+    assert BUSH_WARMER_THAN_OIL.code not in codes(answer_notes(cooled, run_all(cooled)))
 
 
 def test_a_wall_is_a_layer_of_films_and_scenes(tmp_path):
