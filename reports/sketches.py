@@ -14,6 +14,9 @@ BODY, LAYERS, LOAD = "#e8e8e8", ("#f4c27a", "#d9a0a0", "#b9cf9b"), "#0072B2"
 
 def draw(ax: Any, case: StoredCase) -> None:
     """Draw a stored problem on empty axes: a section y = 0, z down."""
+    if case.problem == "bush":
+        _bush(ax, case)
+        return
     parameters = case.parameters
     ax.set_axis_off()
     ax.set_aspect("equal")
@@ -55,6 +58,32 @@ def draw(ax: Any, case: StoredCase) -> None:
         ax.set_title(f"{shape[case.problem]}: {kind}", fontsize=8)
     else:
         ax.set_title(case.problem.replace("-", ": "), fontsize=8)
+
+
+def _bush(ax: Any, case: StoredCase) -> None:
+    """Draw a shaft at the bottom of its bush, the clearance much enlarged."""
+    shaft, wall, housing = (case.parameters[name] for name in ("shaft", "wall", "housing"))
+    ax.set_axis_off()
+    ax.set_aspect("equal")
+    ax.set_xlim(-3, 3)
+    ax.set_ylim(-2.6, 2.1)
+    turn = np.linspace(0, 2 * np.pi, 181)
+    circles = [(1.1, "w", 0.0), (0.95, "#c9d6e4", -0.15)]
+    if wall is None:
+        ax.fill_between([-3, 3], -2.4, 2.0, color=BODY, lw=0)
+    else:
+        ax.fill_between([-3, 3], -2.4, 2.0, color="0.45" if housing is None else BODY, lw=0)
+        circles.insert(0, (1.1 + float(np.clip(1.1 * wall, 0.12, 0.8)), LAYERS[0], 0.0))
+        words = "rigid" if housing is None else f"E = {housing[0]:.3g} E of the bush, ν = {housing[1]:g}"
+        ax.text(-2.9, -2.25, f"housing: {words}", fontsize=6.5, color="w" if housing is None else "k")
+    for radius, colour, middle in circles:
+        ax.fill(radius * np.sin(turn), middle + radius * np.cos(turn), color=colour, ec="0.3", lw=0.8)
+    thickness = "no end" if wall is None else f"wall {wall:g} R"
+    ax.text(0, 1.85, f"bush: E, ν = {case.parameters['nu']:g}, {thickness}", fontsize=6.5, ha="center", va="top")
+    ax.text(0, -0.75, f"E = {shaft[0]:.3g} E\nν = {shaft[1]:g}", fontsize=6.5, ha="center")
+    ax.annotate("", (0, -0.35), (0, 0.6), arrowprops={"arrowstyle": "->", "color": LOAD, "lw": 1.4})
+    ax.text(0.12, 0.2, "load", fontsize=7, color=LOAD)
+    ax.set_title("shaft in a bush", fontsize=8)
 
 
 def _direction(case: StoredCase) -> str:

@@ -1,6 +1,6 @@
 """A plain bush: a shaft that turns or swings in a fixed bush under a load of fixed direction, dry or lubricated.
 
-The contact is `bem.elements.conforming`; films and scenes are of the equivalent cylinder on a flat, whose gap is that
+The contact is `bem.contact.conforming`; films and scenes are of the equivalent cylinder on a flat, whose gap is that
 of shaft and bush near the load line. A bush with a wall is bonded to its housing, and a layer on it in scenes. Wear
 follows Archard with the whole load and takes off the bush alone. Thermal expansion, which may close the clearance of a
 polymer bush, its creep and its softening with temperature are left out. Verified in tests/elements/test_plain_bush.py.
@@ -14,7 +14,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from bem.elements.conforming import ConformingBodies, ConformingContact, conforming_contact
+from bem.contact.conforming import ConformingBodies, ConformingContact, conforming_contact
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.materials import CATALOGUE, Material
@@ -29,7 +29,8 @@ ROOM = 293.15
 """Temperature of the surroundings where none is given [K]."""
 DRY_FRICTION = 0.35
 """Friction coefficient of a dry bush without one of the file; dry thermoplastics with filler have 0.15 to 0.40 (The
-Tribology Handbook, ed. M. J. Neale, table of rubbing bearing materials: this page read), here near the upper end."""
+Tribology Handbook, ed. M. J. Neale, table of rubbing bearing materials: known from an excerpt that a search showed, the
+page itself was not read), here near the upper end."""
 TRANSFER, AREA_FACTOR = 15.0, 15.0
 """Without a conductance heat leaves by 15 W/(m^2 K) through 15 times diameter times length: still air around a small
 bearing block, the lower ends of the usual ranges 15 to 20 of both (DIN 31652, from memory, not checked)."""

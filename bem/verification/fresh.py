@@ -145,6 +145,18 @@ def _row(rng: np.random.Generator) -> Parameters:
     return body | _indenter(rng) | {"loads": loads}
 
 
+def _bush(rng: np.random.Generator) -> Parameters:
+    """A housing that is stiffer than the bush, as its bore is narrow beside the loads on a softer one."""
+    shaft = [_logarithmic(rng, 0.1, 100), _poisson(rng)]
+    largest = _logarithmic(rng, 0.05, 0.8)
+    found: Parameters = {"shaft": shaft, "loads": [float(f"{largest * rng.uniform(0.3, 0.8):.3g}"), largest]}
+    if rng.random() < 0.8:
+        found["wall"] = _logarithmic(rng, 0.05, 3)
+        if rng.random() < 0.7:
+            found["housing"] = [_logarithmic(rng, 1, 100), _poisson(rng)]
+    return found
+
+
 def _heated_disc(rng: np.random.Generator) -> Parameters:
     return {"profile": str(rng.choice(["uniform", "hertz"]))}
 
@@ -162,6 +174,7 @@ _PROBLEMS: dict[str, tuple[Callable[[np.random.Generator], Parameters], float]] 
     "contact-sphere": (_round, 2.0),
     "contact-cylinder": (_round, 2.0),
     "contact-row": (_row, 2.0),
+    "bush": (_bush, 1.0),
     "heat-disc": (_heated_disc, 0.2),
     "heat-band": (_heated_band, 2.0),
 }

@@ -22,6 +22,7 @@ FAMILIES = {
     "contact-row": "contact",
     "heat-disc": "heat",
     "heat-band": "heat",
+    "bush": "bush",
 }
 """Problem of a stored case -> module that computes bem's side."""
 

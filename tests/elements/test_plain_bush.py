@@ -10,8 +10,8 @@ import pytest
 from command_line import run_command
 
 from bem import InputError, plan_scene, run_scene
+from bem.contact.conforming import ConformingBodies
 from bem.elements.answer import answer, answer_notes, balance_heat
-from bem.elements.conforming import ConformingBodies
 from bem.elements.element import element_template, load_element
 from bem.elements.figure import element_figure
 from bem.elements.plain_bush import DRY_FRICTION, WORN_IN, crescent_distance, sliding_to_depth

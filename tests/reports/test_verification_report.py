@@ -27,7 +27,14 @@ from reports import (
 from reports.experiments import kept, point_table
 from reports.prose import prose
 
-FEW = ("disc-hertz-soft", "harmonic-antiplane-soft", "contact-row-plain", "oblique-wave", "refinement-strip-normal")
+FEW = (
+    "disc-hertz-soft",
+    "harmonic-antiplane-soft",
+    "contact-row-plain",
+    "bush-peek-wide",
+    "oblique-wave",
+    "refinement-strip-normal",
+)
 
 
 @pytest.fixture(scope="module")

@@ -140,7 +140,9 @@ def test_a_failing_gate_ends_with_exit_code_one(monkeypatch, tmp_path):
     assert json.loads(path.read_text())[0]["passed"] is False
 
 
-@pytest.mark.parametrize("name", ["disc-uniform", "strip-tangential", "harmonic-antiplane-soft", "contact-row-plain"])
+@pytest.mark.parametrize(
+    "name", ["disc-uniform", "strip-tangential", "harmonic-antiplane-soft", "contact-row-plain", "bush-peek"]
+)
 def test_quick_gates_pass(name):
     (gate,) = registry.select([name])
     assert [row for row in gate.run() if not row.passed] == []

@@ -12,8 +12,9 @@ n = 1 moves the bodies as a whole, so that how the load enters them matters only
 sums over n are closed: a logarithm, which both bodies have, and a jump, which vanishes with Dundurs' beta. The finite
 wall adds a rapidly decaying sum. With Chebyshev nodes over the contact and weights that integrate logarithm and jump
 exactly the error falls exponentially with the number of nodes for beta = 0, and with their sixth power otherwise.
-Verified in tests/elements/test_conforming.py: the closed form of `pin_in_hole` for beta = 0, Hertz, and displacements
-of bush and shaft by Navier's equations along the radius.
+Verified in tests/contact/test_conforming.py: the closed form of `pin_in_hole` for beta = 0, Hertz, and displacements
+of bush and shaft by Navier's equations along the radius; and by gates against contacts in finite elements
+(`bem.verification.bush`).
 """
 
 from __future__ import annotations

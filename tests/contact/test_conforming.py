@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bem import InputError
-from bem.elements.conforming import NODES, ConformingBodies, _bush_harmonics, _bush_mean, conforming_contact
+from bem.contact.conforming import NODES, ConformingBodies, _bush_harmonics, _bush_mean, conforming_contact
 from bem.materials import CATALOGUE, Material, dundurs_beta
 from bem.reference_solutions.hertz import cylinder_contact
 from bem.reference_solutions.pin_in_hole import load_of_angle, pressure_at
