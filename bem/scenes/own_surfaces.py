@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -141,7 +141,7 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, 
         grid: dict[str, Any] = {"periodic": True}
         for one in found.values():
             if one.resampled:
-                grid |= {"shape": list(one.shape), "lengths": [_length(side) for side in one.lengths]}
+                grid |= {"shape": list(one.shape), "spacing": _cells(one.spacing)}
         grid |= _coarser_grid(list(found.values()))
         return data | {"grid": grid, "contact": {"mean_pressure": "20 MPa", "behaviour": "capped"}}
     rms_height = math.hypot(*(one.rms_height for one in found.values()))
@@ -226,7 +226,7 @@ def _coarser_grid(maps: list[MeasuredMap]) -> dict[str, Any]:
         return {}
     lengths = [min(one.lengths[axis] for one in maps) for axis in (0, 1)]
     shape = [math.floor(length / side * (1 + 1e-9)) for length, side in zip(lengths, spacing, strict=True)]
-    return {"shape": shape, "lengths": [_length(n * side) for n, side in zip(shape, spacing, strict=True)]}
+    return {"shape": shape, "spacing": _cells(spacing)}
 
 
 def _half_width(kind: str, data: Mapping[str, Any]) -> float:
@@ -318,6 +318,11 @@ def _wear(kind: str, data: Mapping[str, Any], cell: float) -> dict[str, Any]:
         },
         "particle_criterion": {"kind": "averaged_von_mises", "averaging_length": _length(average)},
     }
+
+
+def _cells(spacing: Sequence[float]) -> list[str]:
+    """Cell sides as a scene writes them, to 12 digits: rounded up to fewer, the grid would reach beyond the maps."""
+    return [f"{1e6 * side:.12g} um" for side in spacing]
 
 
 def _length(value: float) -> str:

@@ -170,3 +170,18 @@ def test_a_contact_of_maps_of_unequal_spacing_has_the_cells_of_the_coarser(tmp_p
     assert grid.spacing == pytest.approx((0.5e-6, 0.5e-6), rel=1e-3, abs=0)
     assert grid.shape == (102, 102)  # 51.2 um of the smaller map
     assert "map-coarse" not in {note.code for note in scene_warnings(examine(planned))}
+
+
+@pytest.mark.parametrize("sides", [(0.80376e-6, 0.438052e-6), (0.684449e-6, 0.43129e-6), (1 / 3 * 1e-6, 0.1e-6)])
+def test_a_grid_on_two_maps_does_not_reach_beyond_the_smaller(sides, tmp_path):
+    """Cells of 0.438052 um, rounded up to four digits, were longer than the map, and the scene did not plan."""
+    files = {}
+    for body, side, cells in zip(("lower", "upper"), sides, (100, 151), strict=True):
+        grid = Grid((cells, cells + 7), (side, side), periodic=(True, True))
+        heights = generate_surface(grid, rms_height=5e-8, seed=4, correlation_length=4e-6)
+        files[body] = _map(tmp_path / f"{body}.npz", heights, grid.spacing)
+    scene = tmp_path / "mine.toml"
+    scene.write_text(scene_template("contact", surfaces=files, folder=tmp_path))
+    planned, _ = plan_scene(scene)
+    assert build.grid_of(planned.grid).spacing == pytest.approx((max(sides),) * 2, rel=1e-10, abs=0)
+    assert len(examine(planned).surfaces) == 2  # heights on the grid
