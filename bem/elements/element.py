@@ -23,7 +23,7 @@ from bem.elements.model import Contacts, ElementModel
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.plain_bush import HOUSING, PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
-from bem.elements.rough_scenes import mixed_scene, rubbing_scene
+from bem.elements.rough_scenes import bush_scene, mixed_scene, rubbing_scene
 from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
@@ -290,7 +290,7 @@ class Element:
 
     @property
     def _layered(self) -> bool:
-        """True if body 2 is a layer: a bush with a wall, in whose films kinds of scene compute no heat."""
+        """True if body 2 is a layer: a bush with a wall."""
         return isinstance(self.model, PlainBushModel) and self.model.wall is not None
 
     @property
@@ -298,8 +298,19 @@ class Element:
         """Contact modulus by which scenes choose their patch [Pa]."""
         return self.model.film_modulus if isinstance(self.model, PlainBushModel) else self.modulus
 
+    def _film_body_tables(self) -> dict[str, Any]:
+        """Tables of both bodies of a film between smooth surfaces: the wall of a bush as a half-space on which the
+        contact is as wide."""
+        upper: Any = self.table["second"]
+        if isinstance(self.model, PlainBushModel) and self.model.wall is not None:
+            shaft, bush = self.bodies
+            compliance = 1 / self.model.film_modulus - 1 / shaft.plane_strain_modulus
+            stiffer = (1 - bush.poissons_ratio**2) / compliance
+            upper = ({"catalogue": upper} if isinstance(upper, str) else dict(upper)) | {"youngs_modulus": stiffer}
+        return {"lower": {"material": self.table["first"]}, "upper": {"material": upper}}
+
     def _body_tables(self) -> dict[str, Any]:
-        """Tables of both bodies of a scene with their materials; a bush with a wall is a layer on its housing."""
+        """Tables of both bodies of a scene with their materials; the wall of a bush is a layer on its housing."""
         upper = {"material": self.table["second"]}
         if isinstance(self.model, PlainBushModel) and self.model.wall is not None:
             layer = {**upper, "thickness": self.model.wall}
@@ -316,11 +327,13 @@ class Element:
                 f"{contact.speeds[1]:.3g} m/s), where no steady film of kind {kind} is; allowed: kind contact, or "
                 f"a place of the table where they do not: {self._with_film()}"
             )
+        if kind == "friction" and isinstance(self.model, PlainBushModel):
+            return bush_scene(self.model, contact, self._oil_table(), self.table["first"], self.table["second"])
         if kind in MIXED:
             made = mixed_scene(self.model, contact, bodies, self._oil_table(), kind, self._patch_modulus)
             return made | ({"thermal": "off"} if self._layered else {})
         shared = {
-            **bodies,
+            **self._film_body_tables(),
             "oil": self._oil_table(),
             **({} if self.model.rms_roughness is None else {"roughness": self.model.rms_roughness}),
             "rolling": {"mean_speed": abs(contact.mean_speed), "slide_roll_ratio": ratio},
@@ -333,7 +346,7 @@ class Element:
             return {**shared, "ball": {"radius": contact.radius, "radius_y": contact.across, "load": contact.load}}
         line_load = contact.line_load(self.modulus)
         width = contact.load / line_load
-        known = all(one.thermal_diffusivity for one in self.bodies) and not self._layered
+        known = all(one.thermal_diffusivity for one in self.bodies)
         return {
             "thermal": self.model.thermal if known else "off",  # heat needs the constants of both materials
             **shared,

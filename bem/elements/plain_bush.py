@@ -1,9 +1,11 @@
 """A plain bush: a shaft that turns or swings in a fixed bush under a load of fixed direction, dry or lubricated.
 
 The contact is `bem.contact.conforming`; films and scenes are of the equivalent cylinder on a flat, whose gap is that
-of shaft and bush near the load line. A bush with a wall is bonded to its housing, and a layer on it in scenes. Wear
-follows Archard with the whole load and takes off the bush alone. Thermal expansion, which may close the clearance of a
-polymer bush, its creep and its softening with temperature are left out. Verified in tests/elements/test_plain_bush.py.
+of shaft and bush near the load line. A bush with a wall is bonded to its housing, and a layer on it in dry scenes. In
+films it is the half-space on which a cylinder makes a contact of the same width, which is exact for a thick wall and
+for one that vanishes. Wear follows Archard with the whole load and takes off the bush alone. Thermal expansion, which
+may close the clearance of a polymer bush, its creep and its softening with temperature are left out. Verified in
+tests/elements/test_plain_bush.py.
 """
 
 from __future__ import annotations

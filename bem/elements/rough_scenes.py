@@ -17,6 +17,7 @@ from bem.materials import Body, softer_hardness
 
 if TYPE_CHECKING:
     from bem.elements.model import ElementModel
+    from bem.elements.plain_bush import PlainBushModel
 
 ROOM = 293.15
 """Bulk temperature of both bodies without an oil [K]."""
@@ -153,6 +154,53 @@ def mixed_scene(
         "sharing": sharing,
         "depths": {"count": _DEPTHS, "spacing": patch.coarser_spacing / _CELLS_PER_DEPTH},
         "cycles": dict(_CYCLES),
+    }
+
+
+def bush_scene(
+    model: PlainBushModel, contact: ElementContact, oil: Mapping[str, Any], shaft: Any, bush: Any
+) -> dict[str, Any]:
+    """Keys of a scene of kind friction of a bush: a ground shaft, whose roughness repeats under the wide contact.
+
+    Film and Hertz contact have the modulus with which a cylinder on a half-space is as wide as on the wall. Asperities
+    are small against the wall and deform the bush's own material.
+
+    Parameters
+    ----------
+    model : the bush.
+    contact : its equivalent cylinder.
+    oil : the element's table of the oil.
+    shaft, bush : materials as the element has them.
+
+    Raises
+    ------
+    InputError : an element without roughness.
+    """
+    if model.rms_roughness is None:
+        raise InputError(
+            f"{model.name}: kind friction needs the roughness of the surfaces; allowed: rms_roughness of both "
+            'together, such as "300 nm"'
+        )
+    ratio = contact.slide_roll_ratio
+    sharing: dict[str, Any] = {"oil_volume": "loaded"}
+    if hardness_of(model) is None:
+        sharing["models"] = ["elastic"]
+    if model.wall is not None:
+        sharing["film_modulus"] = model.film_modulus
+    return {
+        "thermal": _thermal(model, contact),
+        "lower": {"material": shaft, "surface": {"process": "ground", "rms_height": model.rms_roughness}},
+        "upper": {"material": bush},
+        "contact": {
+            "radius": contact.radius,
+            "width": contact.length,
+            "loads": [contact.load],
+            "boundary_friction": model.boundary_friction,
+        },
+        "oil": dict(oil),
+        "speeds": {"values": [abs(contact.mean_speed) * (1 + 0.5 * ratio)], "slide_roll_ratio": ratio},
+        **({"supply": {"distance": contact.inlet}} if math.isfinite(contact.inlet) else {}),
+        "sharing": sharing,
     }
 
 

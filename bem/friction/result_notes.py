@@ -68,10 +68,11 @@ def contact_notes(balance: Balance, forces: Forces) -> tuple[Note, ...]:
 
 
 def coating_notes(setup: MixedSetup) -> tuple[Note, ...]:
-    """Return a note on coated bodies, whose layers only the rough contact feels."""
+    """Return a note on coated bodies, whose layers only the rough contact feels; none where the film has its own
+    modulus."""
     bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
     coated = [body for body in bodies if body.layers]
-    if not coated:
+    if not coated or setup.film_modulus is not None:
         return ()
     half_width = setup.smooth.half_axes(setup.load)[0]
     thickest = max(body.interfaces[-1] for body in coated)

@@ -121,7 +121,8 @@ def sensitivities(solution: MixedSolution, *, height: FloatArray, **as_solve_mix
             return PointInputs(setup, factor * height, solution.speeds)
         if name == "modulus":
             first, last = _stiffer(pair[0], factor), _stiffer(pair[-1], factor)
-            changed = replace(setup, bodies=(first, last) if len(pair) > 1 else first)
+            own = None if setup.film_modulus is None else factor * setup.film_modulus
+            changed = replace(setup, bodies=(first, last) if len(pair) > 1 else first, film_modulus=own)
         elif name == "viscosity":
             changed = replace(setup, lubricant=replace(setup.lubricant, viscosity=factor * setup.lubricant.viscosity))
         else:

@@ -42,8 +42,9 @@ HEAT_NEEDS = ("temperature", "density", "heat_capacity", "thermal_conductivity",
 class MixedSetup:
     """Arguments of `solve_mixed` without heights and speeds, checked.
 
-    One field is added: `heat_mesh`, factor on the columns and layers of full heat, or on the cells of lumped heat of a
-    line (`FilmHeat.mesh`).
+    Two fields are added. `heat_mesh`: factor on the columns and layers of full heat, or on the cells of lumped heat of
+    a line (`FilmHeat.mesh`). `film_modulus`: contact modulus of the film and of the Hertz contact [Pa] where it is not
+    that of the bodies, such as of a thin wall of polymer in a stiff housing; asperities deform the bodies themselves.
 
     Raises
     ------
@@ -73,6 +74,7 @@ class MixedSetup:
     supply: Supply | float | None = None
     thermal: str = "off"
     heat_mesh: float = 1.0
+    film_modulus: float | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.grid, Grid):
@@ -137,6 +139,11 @@ class MixedSetup:
         """Return messages on options that a repeated cell of the roughness does not have."""
         if self.repeated_cell and self.oil_volume != OilVolume.LOADED:
             return ['oil_volume: a cell that repeats has its oil where the film carries; make it "loaded"']
+        if self.film_modulus is not None and not self.repeated_cell:
+            return [
+                "film_modulus: a patch that holds the contact deforms by the moduli of its bodies; leave it out, or "
+                "take a grid that repeats under the contact, periodic along x and y"
+            ]
         if self.repeated_cell and self.contact_model == "uncoupled":
             free = "nowhere" if self.radii is not None else "along y alone"
             return [f"grid: uncoupled asperities need a patch that holds the contact; make it periodic {free}"]
@@ -145,6 +152,8 @@ class MixedSetup:
     def _numbers(self) -> list[str]:
         messages = _not_positive({"load": self.load})
         messages += [*self._boundary_friction(), *self._supply(), *self._heat()]
+        if self.film_modulus is not None:
+            messages += _not_positive({"film_modulus": self.film_modulus})
         if self.hardness is not None and not (is_finite(self.hardness) and self.hardness > 0):
             messages.append(f"hardness: {self.hardness!r} must be positive [Pa], or None for elastic contact")
         if not (is_finite(self.tolerance) and 1e-9 <= self.tolerance <= 0.1):
@@ -272,7 +281,7 @@ class MixedSetup:
     def smooth(self) -> LineContact | PointContact:
         """Smooth contact of the bodies, and its oil."""
         bodies = (self.bodies,) if isinstance(self.bodies, Body) else self.bodies
-        modulus = contact_modulus(*(body.material for body in bodies))
+        modulus = self.film_modulus or contact_modulus(*(body.material for body in bodies))
         deforming = self.load if self.counted is OilVolume.LOADED else None
         supply = checked_supply(self.supply)
         if self.radii is not None:

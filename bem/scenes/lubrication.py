@@ -290,7 +290,7 @@ class MixedScene(SceneModel):
         from bem.scenes.checks.hertz import smooth_contact
 
         load = min(self.contact.forces(self.modulus)) / self.contact.length
-        return smooth_contact(*self.bodies, self.contact.curvature, load=load)
+        return smooth_contact(*self.bodies, self.contact.curvature, load=load, modulus=self.modulus)
 
     def plastic_spread(self, smooth: SmoothContact) -> float:
         """By how much the contact under the largest load is larger than the smooth elastic one under the smallest, at

@@ -49,7 +49,7 @@ def test_every_kind_of_scene_of_every_element_plans(name, kind):
     assert scene.kind == kind
     assert plan.memory > 0
     if kind in ROUGH:
-        heights = [getattr(scene, body).surface.rms_height for body in ("lower", "upper")]
+        heights = [getattr(getattr(scene, body).surface, "rms_height", 0.0) for body in ("lower", "upper")]
         assert math.hypot(*heights) == pytest.approx(element.model.rms_roughness)
         assert scene.thermal == "lumped" if kind in MIXED else scene.heat.lower_bulk == element.model.oil.temperature
         assert f"{BOUNDARY_FRICTION:g} is assumed" in scene.description

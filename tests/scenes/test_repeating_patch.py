@@ -119,3 +119,30 @@ def test_a_repeating_patch_has_the_heat_of_film_and_contact(tmp_path):
     assert 40 < found["contact_temperature_C"][0] < found["flash_temperature_C"][0] < 60
     assert found["friction"][0] == pytest.approx(cold.summary["friction"][0], rel=0.02)
     assert [note["text"] for note in found["notes"] if "flashes of single asperities" in note["text"]]
+
+
+def test_the_film_may_have_a_modulus_of_its_own(tmp_path):
+    """That of the bodies changes nothing; another one scales contact and film, and needs a patch that repeats."""
+    bare = planned(ROLLER)
+    given = ROLLER | {"sharing": {"film_modulus": bare.modulus}, "outputs": {"errors": False}}
+    stiff = given | {"sharing": {"film_modulus": 4 * bare.modulus}}
+    assert planned(stiff).smooth_contact().semi_axes[0] == pytest.approx(0.5 * bare.smooth_contact().semi_axes[0])
+    stiffer = {
+        name: given[name]
+        | {"material": {"catalogue": given[name]["material"], "youngs_modulus": 4 * body.material.youngs_modulus}}
+        for name, body in zip(("lower", "upper"), bare.bodies, strict=True)
+    }
+    runs = [
+        run_scene(scene, tmp_path / str(number), figures=False).summary
+        for number, scene in enumerate((given | {"sharing": {}}, given, stiff, given | stiffer | {"sharing": {}}))
+    ]
+    assert runs[1]["friction"] == runs[0]["friction"]
+    # the film under the whole load is that between bodies of four times the modulus
+    films = [run["lambda_ratio"][1] for run in runs]
+    assert films[2] == pytest.approx(films[3], rel=1e-3)
+    assert films[2] < 0.7 * films[0]
+    # while asperities are as soft as before
+    assert runs[2]["contact_load_N"][1] != pytest.approx(runs[3]["contact_load_N"][1], rel=0.01)
+    holds = stiff | {"grid": {"shape": [1024, 32], "lengths": ["2 mm", "300 um"], "periodic": [False, True]}}
+    with pytest.raises(InputError, match="film_modulus: a patch that holds the contact"):
+        run_scene(holds, tmp_path / "holds", figures=False)

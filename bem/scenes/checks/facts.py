@@ -10,7 +10,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from bem.grid import Grid
-from bem.materials import Body, Material, contact_modulus, softer_hardness
+from bem.materials import Body, Material, softer_hardness
 from bem.quantities import si
 from bem.scenes import build
 from bem.scenes.axes import Axis
@@ -224,7 +224,7 @@ def lubricated_contacts(
     cap : highest pressure of a cell [Pa]. depths : at which stresses are wanted [m]. wear : model of a wear loop.
     """
     grid, bodies, contact = build.grid_of(scene.grid), bodies_of(scene), scene.contact
-    modulus = contact_modulus(bodies["lower"].material, bodies["upper"].material)
+    modulus = scene.modulus
     (load,) = contact.forces(modulus)
     cell = []
     if scene.cell_repeats:  # of the contact, and part of a flat
@@ -234,7 +234,9 @@ def lubricated_contacts(
         Case(
             grid=None if cell else grid,
             load=contact.on_patch(load, grid.lengths),
-            smooth=smooth_contact(bodies["lower"], bodies["upper"], contact.curvature, load=load / contact.length),
+            smooth=smooth_contact(
+                bodies["lower"], bodies["upper"], contact.curvature, load=load / contact.length, modulus=modulus
+            ),
             cap=cap,
             friction=contact.nominal_friction(load, modulus, scene.speeds.build()[0], scene.oil.temperature),
             depths=depths,

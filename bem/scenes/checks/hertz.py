@@ -79,15 +79,16 @@ def smooth_contact(
     *,
     load: float | None = None,
     approach: float | None = None,
+    modulus: float | None = None,
 ) -> SmoothContact | None:
     """Hertz contact under a load [N], per length [N/m] where Ry is infinite, or at an approach [m]; None for a flat,
-    and for a cylinder at an approach.
+    and for a cylinder at an approach. `modulus` : contact modulus [Pa] where it is not that of the substrates.
 
     Under a load, surface tension makes the bodies of a point contact stiffer, see `_modulus_under_tension`.
     """
     from bem.reference_solutions.hertz import cylinder_contact, ellipse_contact
 
-    modulus = contact_modulus(lower.material, None if upper is None else upper.material)
+    modulus = modulus or contact_modulus(lower.material, None if upper is None else upper.material)
     if math.isinf(radii[0]) or (load is None and approach is None) or (approach is not None and approach <= 0):
         return None
     if math.isinf(radii[1]):

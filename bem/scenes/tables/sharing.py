@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from bem.errors import InputError
 from bem.scenes.axes import with_keys
-from bem.scenes.common import PositiveLength, Table, Variant, problem
+from bem.scenes.common import PositiveLength, PositivePressure, Table, Variant, problem
 from bem.scenes.keys import key
 from bem.scenes.lubrication import FilmCells, FilmMeshScene, MixedScene
 from bem.scenes.records import Figure
@@ -60,6 +60,15 @@ class SharingScene(Table):
         "advanced",
         default="loaded",
         reason="loaded, which does not depend on the length of the patch",
+    )
+
+    film_modulus: PositivePressure | None = key(
+        "Contact modulus E* of film and Hertz contact where it is not that of the bodies, such as of a thin wall in a "
+        "stiff housing; needs a patch that repeats.",
+        "expert",
+        default=None,
+        example="11 GPa",
+        reason="that of the bodies below any layers",
     )
 
     @model_validator(mode="after")
@@ -179,6 +188,11 @@ class CurveScene(HotMixedScene):
     def at_film_separation(self) -> bool:
         """As `MixedScene`."""
         return self.sharing.separation == "film"
+
+    @property
+    def modulus(self) -> float:
+        """Contact modulus of film and Hertz contact [Pa]: of the substrates, or given."""
+        return self.sharing.film_modulus or super().modulus
 
     @model_validator(mode="after")
     def _cell(self) -> Self:
