@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from bem.elements.bearing_life import life_rows
-from bem.elements.bush_answer import bush_notes, bush_rows, pressure_words
+from bem.elements.bush_answer import FilmOfBush, bush_notes, bush_rows, pressure_words
 from bem.elements.cam_follower import CamModel
 from bem.elements.contact import ElementContact
 from bem.elements.element import Element
@@ -173,8 +173,14 @@ def _lost(element: Element, solved: Sequence[Running]) -> Rows:
 
 def _bush(element: Element, model: PlainBushModel, runs: Sequence[Running], solved: Sequence[Running]) -> Rows:
     film = [("lambda ratio", _film(element, runs))] if runs else []
-    rows = bush_rows(model, likely_power(element, runs) if runs else None)
+    rows = bush_rows(model, _film_of_bush(element, runs))
     return (("critical contact", pressure_words(model)), *film, *rows, *_lost(element, solved))
+
+
+def _film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | None:
+    if not runs:
+        return None
+    return FilmOfBush(likely_power(element, runs), max(one.asperity_share or 0.0 for one in runs))
 
 
 def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...]:
@@ -183,7 +189,7 @@ def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...
     if not isinstance(element.model, PlainBushModel):
         return ()
     touching = any((one.film_ratio or 1.0) < 1 for one in runs)
-    notes = bush_notes(element.model, likely_power(element, runs) if runs else None)
+    notes = bush_notes(element.model, _film_of_bush(element, runs))
     return (*notes, SURFACES_TOUCH(where="")) if touching else notes
 
 

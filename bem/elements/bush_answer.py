@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 from bem.elements.plain_bush import (
     AREA_FACTOR,
@@ -14,13 +15,30 @@ from bem.elements.plain_bush import (
     sliding_to_depth,
 )
 from bem.notes import Note
-from bem.notes.elements import BUSH_OVER_LIMIT, BUSH_WARMER_THAN_OIL
+from bem.notes.elements import BUSH_OVER_LIMIT, BUSH_WARMER_THAN_OIL, BUSH_WEARS_IN_FILM
 from bem.quantities import plain_digits, with_unit
 
 CELSIUS = 273.15
 _HOUR = 3600.0
 _WARMER = 15.0
 """Excess of the bush over the liquid of its film that is worth a note [K]: viscosities change by 2 to 5 % a kelvin."""
+
+
+LEAST_SHARE = 0.01
+"""Share of the load on asperities below which friction is that of the film."""
+
+
+@dataclass(frozen=True)
+class FilmOfBush:
+    """Film of a lubricated bush.
+
+    Attributes
+    ----------
+    power : friction of film and asperities [W]. asperity_share : of the load, an estimate.
+    """
+
+    power: float
+    asperity_share: float
 
 
 def pressure_words(model: PlainBushModel) -> str:
@@ -37,19 +55,21 @@ def pressure_words(model: PlainBushModel) -> str:
     )
 
 
-def friction_power_of(model: PlainBushModel, lubricated: float | None) -> tuple[float, str]:
+def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[float, str]:
     """Return the friction power [W] and where it comes from.
 
-    lubricated : of film and asperities [W]; None of a dry bush.
+    film : None of a dry bush.
     """
     slid = model.radial_load * model.sliding_speed
     if model.friction is not None:
         return model.friction * slid, f"friction coefficient {model.friction:g}, given"
-    if lubricated is not None:
-        return lubricated, (
-            f"friction coefficient {lubricated / slid:.3g} of film and asperities, whose boundary friction is "
-            f"{model.boundary_friction:g}: an estimate, as the share of asperities is by tests of ground steel; kind "
-            "friction computes it, for the key friction"
+    if film is not None:
+        coefficient = f"friction coefficient {film.power / slid:.3g}"
+        if film.asperity_share < LEAST_SHARE:
+            return film.power, f"{coefficient}, of the film"
+        return film.power, (
+            f"{coefficient}, an estimate: the share of asperities is by tests of ground steel, their boundary friction "
+            f"{model.boundary_friction:g}; a scene of kind friction computes it"
         )
     dry = "" if model.oil is None else ", as if dry: no film is solved"
     return (
@@ -63,9 +83,9 @@ def bush_temperature(model: PlainBushModel, power: float) -> float:
     return model.bulk_temperature or model.surroundings + power / model.conductance
 
 
-def bush_rows(model: PlainBushModel, lubricated: float | None) -> list[tuple[str, str]]:
-    """Return rows of name and words; `lubricated` as in `friction_power_of`."""
-    power, source = friction_power_of(model, lubricated)
+def bush_rows(model: PlainBushModel, film: FilmOfBush | None) -> list[tuple[str, str]]:
+    """Return rows of name and words; `film` as in `friction_power_of`."""
+    power, source = friction_power_of(model, film)
     rows = [
         ("pressure x velocity", _pv(model)),
         ("friction power", f"{plain_digits(power, 3)} W ({source})"),
@@ -77,8 +97,8 @@ def bush_rows(model: PlainBushModel, lubricated: float | None) -> list[tuple[str
     return rows
 
 
-def bush_notes(model: PlainBushModel, lubricated: float | None) -> tuple[Note, ...]:
-    """Return notes on limits that the bush exceeds; `lubricated` as in `friction_power_of`."""
+def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ...]:
+    """Return notes on limits that the bush exceeds; `film` as in `friction_power_of`."""
     notes = []
     pv = model.mean_pressure * model.sliding_speed
     if model.pv_limit is not None and pv > model.pv_limit:
@@ -86,13 +106,15 @@ def bush_notes(model: PlainBushModel, lubricated: float | None) -> tuple[Note, .
             BUSH_OVER_LIMIT(value=1e-6 * pv, limit=1e-6 * model.pv_limit, ratio=pv / model.pv_limit, reason="pv")
         )
     highest = model.service_temperature
-    known = lubricated is not None or model.oil is None or model.friction is not None
-    temperature = bush_temperature(model, friction_power_of(model, lubricated)[0]) if known else 0.0
+    known = film is not None or model.oil is None or model.friction is not None
+    temperature = bush_temperature(model, friction_power_of(model, film)[0]) if known else 0.0
     if highest is not None and temperature > highest:
         notes.append(BUSH_OVER_LIMIT(value=temperature - CELSIUS, limit=highest - CELSIUS, reason="temperature"))
-    liquid = None if model.oil is None or lubricated is None else model.oil.temperature
+    liquid = None if model.oil is None or film is None else model.oil.temperature
     if liquid is not None and temperature > liquid + _WARMER:
         notes.append(BUSH_WARMER_THAN_OIL(bush=temperature - CELSIUS, oil=liquid - CELSIUS))
+    if film is not None and film.asperity_share < LEAST_SHARE and model.specific_wear_rate:
+        notes.append(BUSH_WEARS_IN_FILM(share=film.asperity_share))
     return tuple(notes)
 
 

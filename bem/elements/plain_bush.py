@@ -187,7 +187,7 @@ class PlainBushModel(ElementModel):
     def _notes(self) -> tuple[Note, ...]:
         notes = []
         pressure, width = self.cylinder_deviation()
-        if abs(pressure) > FAR_FROM_CYLINDER:
+        if self.oil is not None and abs(pressure) > FAR_FROM_CYLINDER:
             angle = math.degrees(self.conforming.half_angle)
             notes.append(BUSH_CONFORMS(angle=angle, pressure=pressure, width=width))
         if self.oscillation is not None and self.oil is not None:

@@ -75,7 +75,7 @@ FOLLOWER_PASSED_OFTEN = define(
 BUSH_CONFORMS = define(
     "bush-conforms",
     CAUTION,
-    "Shaft and bush conform: film and scenes are of a cylinder that deviates.",
+    "Shaft and bush conform: film and scenes are of an equivalent cylinder on a flat.",
     "The contact reaches {angle:.0f} degrees to either side. Against it the equivalent cylinder on a flat deviates by"
     " {pressure:+.0%} in peak pressure and {width:+.0%} in width.",
     "Take films, lambda ratio and scenes as estimates.",
@@ -111,4 +111,11 @@ BUSH_WARMER_THAN_OIL = define(
     "The bush has {bush:.0f} °C, given or by the heat balance; its film and friction are those of the liquid at "
     "{oil:.0f} °C.",
     "Give the conductance of your housing and of the liquid that flows through (heat_balance), or a warmer liquid.",
+)
+BUSH_WEARS_IN_FILM = define(
+    "bush-wears-in-film",
+    CAUTION,
+    "Wear and life are those of rubbing surfaces, but a film carries the load.",
+    "Asperities have {share:.1%} of the load by estimate.",
+    "Take the specific wear rate of starts and stops, or of a test in this lubricant at this lambda ratio.",
 )

@@ -163,8 +163,8 @@ REPEATED_PATCH = define(
         ),
         "edge": Reason(
             "Rough surfaces still touch {length:si m} from the middle, {across:.2g} half-widths of the smooth contact.",
-            "Take a patch that holds the contact: grid.periodic = [false, true].",
-            headline="The contact is wider than its grid.",
+            "Take a patch that holds the contact: grid.periodic = [false, true], with shape and lengths.",
+            headline="The contact is wider than the film that is solved.",
         ),
         "pressure": Reason(
             "The mean pressure is {pressure:si Pa} at most; patches were solved up to {limit:si Pa}.",

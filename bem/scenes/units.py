@@ -20,6 +20,9 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})
 _UNIT_TEXT = re.compile(r"[A-Za-zµμÅ°Ω%][A-Za-z0-9µμÅ°Ω%*/^ ().-]{0,39}|1\s*/[A-Za-z0-9µμÅ°Ω%*/^ ().-]{1,39}")
 _BLANK_PRODUCT = re.compile(r"(?<=[\w)])\s+(?=[A-Za-zµμÅ(])")
 _LONG_EXPONENT = re.compile(r"\d{2,}|\*\*\s*\S*\*\*|\^\s*\S*\^")
+# How tribologists write specific wear rates: "mm3/Nm". "Nm" is a torque or work, no nanometre.
+_BARE_POWER = re.compile(r"(?<![A-Za-zµμ])([kcmuµμn]?m)([23])(?![0-9])")
+_NEWTON_METRE = re.compile(r"(?<![A-Za-zµμ])Nm(?![A-Za-z0-9])")
 _ANGLE_IN_UNIT = re.compile("rpm|rps|rad|deg|°|rev|turn|cycle", re.IGNORECASE)
 _COMMON_UNITS = (
     *("m", "mm", "um", "nm", "angstrom", "m^2", "um^2", "mm^2", "m^3", "nm^3", "angstrom^3", "1/m"),
@@ -164,6 +167,7 @@ def _unit(text: str) -> tuple[tuple[tuple[str, float], ...], Decimal]:
         text = "kelvin"
     if _UNIT_TEXT.fullmatch(text) is None or _LONG_EXPONENT.search(text):
         raise LookupError(text)
+    text = _NEWTON_METRE.sub("(N*m)", _BARE_POWER.sub(r"\1^\2", text))
     known = usual_unit(_BLANK_PRODUCT.sub("*", text.strip()))
     if known is not None:
         return known

@@ -17,7 +17,14 @@ from bem.elements.figure import element_figure
 from bem.elements.plain_bush import DRY_FRICTION, WORN_IN, crescent_distance, sliding_to_depth
 from bem.elements.running import run_all
 from bem.notes.checks import SLOPES_LARGE
-from bem.notes.elements import BUSH_CONFORMS, BUSH_OVER_LIMIT, BUSH_SWINGS, BUSH_WARMER_THAN_OIL, SURFACES_TOUCH
+from bem.notes.elements import (
+    BUSH_CONFORMS,
+    BUSH_OVER_LIMIT,
+    BUSH_SWINGS,
+    BUSH_WARMER_THAN_OIL,
+    BUSH_WEARS_IN_FILM,
+    SURFACES_TOUCH,
+)
 
 WATER = tomllib.loads(element_template("plain-bush")) | {"name": "bush"}
 DRY = {key: value for key, value in WATER.items() if key != "oil"}
@@ -73,7 +80,7 @@ def test_a_lubricated_bush_has_a_film_and_its_friction():
     assert len(runs) == 1
     # the film of soft bodies in a liquid whose viscosity does not rise with pressure
     assert runs[0].minimum_film == pytest.approx(element.columns()["minimum_film [m]"][0], rel=0.05)
-    assert "of film and asperities" in said["friction power"]
+    assert "an estimate: the share of asperities" in said["friction power"]
     assert float(said["friction power"].split()[0]) < 0.1 * DRY_FRICTION * 500 * element.model.sliding_speed
     notes = element.notes()
     assert BUSH_CONFORMS.code in codes(notes)
@@ -103,6 +110,17 @@ def test_a_bush_warmer_than_its_liquid_is_noted():
     assert note.values["bush"] > 55
     cooled = load_element(WATER | {"thermal": "off", "heat_balance": {"conductance": "2 W/K", "ambient": "40 degC"}})
     assert BUSH_WARMER_THAN_OIL.code not in codes(answer_notes(cooled, run_all(cooled)))
+
+
+def test_wear_under_a_full_film_is_noted():
+    oil = WATER["oil"] | {"viscosity": "40 mPa*s"}
+    worn = WATER | {"thermal": "off", "oil": oil, "specific_wear_rate": "1e-6 mm3/(N m)"}
+    element = load_element(worn)
+    runs = run_all(element)
+    assert BUSH_WEARS_IN_FILM.code in codes(answer_notes(element, runs))
+    assert dict(answer(element, runs))["friction power"].endswith("of the film)")
+    thin = load_element(worn | {"oil": WATER["oil"]})
+    assert BUSH_WEARS_IN_FILM.code not in codes(answer_notes(thin, run_all(thin)))
 
 
 def test_a_wall_is_a_layer_of_films_and_scenes(tmp_path):

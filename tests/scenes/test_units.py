@@ -44,6 +44,8 @@ class Everything(BaseModel):
         ("ratio", "12 %", 0.12),
         ("ratio", "0.3", 0.3),
         ("wear", "350e-7 mm^3/(N m)", 350e-13 * 1e-3 * 1e3 * 1e-3 * 1e-1 * 10),
+        ("wear", "350e-7 mm3/(N m)", 350e-13 * 1e-3 * 1e3 * 1e-3 * 1e-1 * 10),
+        ("wear", "350e-7 mm^3/Nm", 350e-13 * 1e-3 * 1e3 * 1e-3 * 1e-1 * 10),
         ("viscosity", "36 mPa s", 0.036),
         ("viscosity", "55 cP", 0.055),
         ("energy", "0.8 eV", 0.8 * 1.602176634e-19),
