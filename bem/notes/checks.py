@@ -429,9 +429,34 @@ NOT_SETTLED = define(
     "not-settled",
     CAUTION,
     "The wear cycles have not settled.",
-    "Means of the last cycles (25, or half of all) differ from those of as many before them: {drifting}; "
+    "Means of the last cycles ({window}) differ from those of as many before them: {drifting}; "
     "the figures of the end are those of this number of cycles.",
-    "Take more cycles.count, or read the curves over cycles.",
+    "Raise cycles.count, or read the curves over cycles.",
+)
+FRICTION_SWINGS = define(
+    "friction-swings",
+    CAUTION,
+    "Friction swings with the place of the moving roughness.",
+    reasons={
+        "turns": Reason(
+            "The same roughness returns every {turn} cycles. Mean friction is {first:.4g} over the first whole turn and"
+            " {last:.4g} over the last one; friction_initial = {initial:.4g} is that of the first cycle,"
+            " friction_run_in = {run_in:.4g} the mean of the last {averaged}{of}.",
+            "Compare the means over whole turns.",
+        ),
+        "short": Reason(
+            "The same roughness returns every {turn} cycles, and the run has {cycles}: the place changes friction as"
+            " wear does.",
+            "Set cycles.count to two turns or more, and cycles.averaged to one.",
+        ),
+    },
+)
+LESS_THAN_A_PARTICLE = define(
+    "less-than-a-particle",
+    CAUTION,
+    "The run wears less than one particle.",
+    "All cycles together shed {number:.2g} particles of one body{of}: sizes are those of regions that would come off.",
+    "Raise cycles.count, or read particles as a rate.",
 )
 PARTICLES_OF_BODY = define(
     "particles-of-body",

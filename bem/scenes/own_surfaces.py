@@ -17,6 +17,7 @@ from bem.errors import InputError
 from bem.notes.note import percent
 from bem.quantities import si
 from bem.scenes.kind import get_kind
+from bem.scenes.tables.wear_model import WearScenePart
 from bem.surfaces.examples import example_path
 
 KINDS = ("contact", "friction", "running-in", "wear")
@@ -155,7 +156,9 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, 
         return data
     if kind == "running-in":
         data["speeds"] = {"values": [data["speeds"]["first"]]}
-        data["cycles"] = {"count": _CYCLES}
+        # over a whole turn friction does not hang on the place where the roughness of both bodies meets
+        turn = round(cells / abs(WearScenePart().shift))
+        data["cycles"] = {"count": _CYCLES, "averaged": turn, "coarser_grid": True}
     data["depths"] = {"count": 64, "spacing": _length(cell / 2)}
     return data | {"wear": _wear(kind, data, cell)}
 

@@ -18,6 +18,7 @@ from bem.scenes.common import GeneratedSurface
 from bem.scenes.context import Outcome, Variable
 from bem.surfaces import write_surface
 from bem.surfaces.surface import Surface
+from bem.wear.outcome import drift
 
 STEEL = "steel-52100"
 BALL = {
@@ -471,6 +472,24 @@ def loop_outcome(sq, friction=(0.1, 0.1, 0.1, 0.1)):
     return Outcome(sizes, variables)
 
 
+TURN = 67
+"""Cycles in which 200 rows pass at 3 a cycle, to half a slide: of scene running-in-stribeck."""
+
+
+def swinging_outcome(amplitude, drift=0.0, count=200):
+    """A loop whose friction swings about 0.11 with the place of the roughness; it was a turn before its last cycle."""
+    cycle = np.arange(count)
+    friction = 0.11 + amplitude * np.cos(2 * np.pi * cycle / TURN) - drift * cycle
+    over = Variable(("cycle",), friction, "1", "friction")
+    return Outcome({"friction_run_in": friction[-50:].mean()}, {"friction_over_cycles": over})
+
+
+def particles_outcome(number):
+    """Two loops of four cycles; the second sheds a particle in each."""
+    over = Variable(("speed", "cycle"), np.array([[number] * 4, [1.0] * 4]), "1", "particles")
+    return Outcome({}, {"particles_over_cycles": over})
+
+
 def least_area_outcome(area):
     """Half of the cells touch, at half the hardness each: a quarter of the area would carry that at the hardness."""
     cap = facts_of("wear-steel-steel").cases[0].cap
@@ -590,6 +609,16 @@ OUTCOMES = {
         (loop_outcome(100.0, (0.13, 0.12, 0.11, 0.1)), "friction by 16 % in 1 of 2 loops"),
         loop_outcome(100.0),
     ),
+    "friction_that_swings_with_the_place": (
+        "running-in-stribeck",
+        (swinging_outcome(0.002), "0.11 over the first whole turn and 0.11 over the last one"),
+        swinging_outcome(0.0002),
+    ),
+    "less_than_one_particle": (
+        "running-in-stribeck",
+        (particles_outcome(0.2), "0.8 particles of one body in 1 of 2 loops"),
+        particles_outcome(0.25),
+    ),
     "least_area_of_worn_surfaces": (
         "wear-steel-steel",
         (least_area_outcome(0.25), "in the last cycle, which is 2.00 times larger"),
@@ -655,6 +684,34 @@ def test_particles_that_end_at_an_interface_need_no_deeper_depths():
     for name, coated in (("wear-brass-transfer-film", True), ("wear-steel-brass", False)):
         (words,) = OUTCOME_CHECKS["particles_cut_by_the_depths"](facts_of(name), cut)
         assert ("wear.within_layer" in words) is coated
+
+
+@pytest.mark.internal
+def test_a_swing_with_the_place_of_the_roughness_is_no_drift():
+    """Means of 25 cycles are those of other places on the track; over whole turns only a drift remains."""
+    facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["drifting_at_the_last_cycle"]
+    swing = swinging_outcome(0.01)
+    assert drift(swing.variables["friction_over_cycles"].values) is not None
+    assert list(check(facts, swing)) == []
+    (told,) = check(facts, swinging_outcome(0.01, drift=1e-4))
+    assert "(67, whole turns of the roughness)" in told
+
+
+@pytest.mark.internal
+def test_a_loop_shorter_than_a_turn_says_so_only_where_rough_bodies_move():
+    check, short = OUTCOME_CHECKS["friction_that_swings_with_the_place"], swinging_outcome(0.002, count=20)
+    (told,) = check(facts_of("running-in-stribeck"), short)
+    assert "returns every 67 cycles, and the run has 20" in told
+    assert list(check(facts_of("running-in-stribeck", 'upper.surface={kind = "smooth"}'), short)) == []
+
+
+@pytest.mark.internal
+def test_a_swing_within_the_error_bars_is_not_told():
+    facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["friction_that_swings_with_the_place"]
+    found = swinging_outcome(0.002)
+    for error, told in ((0.0001, 1), (0.003, 0)):
+        errors = {"friction_initial_error": error, "friction_run_in_error": error}
+        assert len(list(check(facts, Outcome(found.summary | errors, found.variables)))) == told
 
 
 @pytest.mark.internal

@@ -15,6 +15,8 @@ from bem.grid import FloatArray, Grid
 from bem.notes import Level, Note
 from bem.notes.accuracy import NoBar, no_error_bar
 from bem.notes.checks import (
+    FRICTION_SWINGS,
+    LESS_THAN_A_PARTICLE,
     NO_PARTICLE_SIZES,
     NO_WEAR_RATE,
     NOT_SETTLED,
@@ -32,7 +34,7 @@ from bem.scenes.checks.outcome import at_the_cap
 from bem.scenes.checks.registry import outcome_check
 from bem.scenes.checks.roughened import roughened, with_pieces
 from bem.scenes.checks.words import numbers
-from bem.scenes.common import BODIES
+from bem.scenes.common import BODIES, SmoothSurface
 from bem.scenes.context import Outcome
 
 _SERIES = {
@@ -87,7 +89,114 @@ def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[Note]
     """Figures of a loop that has not settled are those of its number of cycles; rule: `bem.wear.outcome.drift`."""
     told = [] if roughened(facts, outcome).grown else _drifting(facts, outcome)  # a surface full of holes says it there
     if told:
-        yield NOT_SETTLED(drifting=joined(told))
+        window = _window(facts, _cycles(outcome))
+        words = "25, or half of all" if window == _WINDOW else f"{window}, whole turns of the roughness"
+        yield NOT_SETTLED(drifting=joined(told), window=words)
+
+
+_WINDOW = 25
+"""Cycles of the means that are compared where the roughness has no turn; as `bem.wear.outcome.drift` has it."""
+
+
+def _turn(facts: Facts) -> int:
+    """Return the number of cycles after which a rough moving surface is where it was, to half its slide in a cycle.
+
+    The moving body wraps around on its grid, so that this is the number of rows over the cells that it slides in a
+    cycle. 0 where nothing rough moves, or where contacts of the scene have different turns.
+    """
+    turns = set()
+    for case in facts.cases:
+        moving = "lower" if case.wear is not None and case.wear.frame == "cylinder" else "upper"
+        rough = not isinstance(case.surfaces.get(moving, SmoothSurface()), SmoothSurface)
+        moves = case.wear is not None and case.grid is not None and case.wear.shift != 0 and rough
+        turns.add(round(case.grid.shape[0] / abs(case.wear.shift)) if moves and case.grid and case.wear else 0)
+    return turns.pop() if len(turns) == 1 else 0
+
+
+def _window(facts: Facts, cycles: int) -> int:
+    """Return the cycles of the means that are compared at the end of a loop: whole turns of the roughness, where two
+    turns fit."""
+    turn = _turn(facts)
+    if turn < 2 or cycles < 2 * turn:
+        return _WINDOW
+    several = turn * math.ceil(_WINDOW / turn)
+    return several if 2 * several <= cycles else turn
+
+
+def _cycles(outcome: Outcome) -> int:
+    """Return the number of cycles of the loops; 0 without a series."""
+    series = (outcome.variables.get(name) for name in _SERIES)
+    return max(
+        (one.values.shape[-1] for one in series if one is not None and one.dimensions[-1:] == ("cycle",)), default=0
+    )
+
+
+_SWING = 0.005
+"""Relative difference of friction that counts where the run has no error bar."""
+
+
+@outcome_check
+def friction_that_swings_with_the_place(facts: Facts, outcome: Outcome) -> Iterator[Note]:
+    """A rough surface that slides on by some cells in a cycle meets the other one in the same place only after a turn:
+    116 cells at 3 a cycle swung friction by 3 % with a period of 39 cycles, more than 150 cycles of wear changed it.
+
+    The note is made where a figure differs from the mean over the first or the last whole turn by more than its error.
+    The first cycle differs by real running-in, too: there the swing within the last turn counts besides.
+    """
+    over, turn = outcome.variables.get("friction_over_cycles"), _turn(facts)
+    if not facts.of_kind("running-in") or over is None or turn < 2:
+        return
+    loops, averaged = over.values.reshape(-1, over.values.shape[-1]), facts.scene.cycles.averaged
+    cycles = loops.shape[-1]
+    if cycles < turn:
+        if np.ptp(loops, axis=-1).max() > _SWING * np.abs(loops).max():
+            yield FRICTION_SWINGS(turn=turn, cycles=cycles, reason="short")
+        return
+    shown = len(numbers(outcome.summary.get("friction_run_in"))) or len(loops)
+    if len(loops) % shown == 0:  # means over repetitions
+        loops = loops.reshape(shown, -1, cycles).mean(axis=1)
+    errors = [_errors(outcome, name, len(loops)) for name in ("friction_initial", "friction_run_in")]
+    found = []
+    for loop, initial_error, run_in_error in zip(loops, *errors, strict=True):
+        first, last = float(loop[:turn].mean()), float(loop[-turn:].mean())
+        initial, run_in = float(loop[0]), float(loop[-averaged:].mean())
+        off = abs(run_in - last) / (run_in_error or _SWING * abs(last) or math.inf)
+        least = initial_error or _SWING * abs(first) or math.inf
+        if 0.5 * float(np.ptp(loop[-turn:])) > least:
+            off = max(off, abs(initial - first) / least)
+        if off > 1:
+            found.append((off, first, last, initial, run_in))
+    if found:
+        _, first, last, initial, run_in = max(found)
+        yield FRICTION_SWINGS(
+            turn=turn,
+            first=first,
+            last=last,
+            initial=initial,
+            run_in=run_in,
+            averaged=averaged,
+            of=_of(len(found), len(loops)),
+            reason="turns",
+        )
+
+
+def _errors(outcome: Outcome, name: str, loops: int) -> list[float]:
+    """Return the errors of a figure of so many loops; 0 where they are not known."""
+    errors = outcome.summary.get(f"{name}_error")
+    known = [errors] if isinstance(errors, int | float) else list(errors or [])
+    return [float(error or 0.0) for error in known] if len(known) == loops else [0.0] * loops
+
+
+@outcome_check
+def less_than_one_particle(facts: Facts, outcome: Outcome) -> Iterator[Note]:
+    """Beside a law of wear the number is the worn volume over the mean particle's: below one, no particle has left."""
+    over = outcome.variables.get("particles_over_cycles", outcome.variables.get("particles"))
+    if not facts.of_kind("wear", "running-in") or over is None or over.dimensions[-1:] != ("cycle",):
+        return
+    totals = over.values.reshape(-1, over.values.shape[-1]).sum(axis=-1)
+    few = [float(total) for total in totals if 0 < total < 1]
+    if few:
+        yield LESS_THAN_A_PARTICLE(number=max(few), of=_of(len(few), len(totals)))
 
 
 def _drifting(facts: Facts, outcome: Outcome) -> list[str]:
@@ -105,7 +214,8 @@ def _drifting(facts: Facts, outcome: Outcome) -> list[str]:
             continue
         rows = variable.values.reshape(-1, variable.values.shape[-1])
         counts = _worn(outcome, len(rows)) if name.startswith("rms_height") else [True] * len(rows)
-        found = [drift(series) for series, counted in zip(rows, counts, strict=True) if counted]
+        window = _window(facts, rows.shape[-1])
+        found = [drift(series, window) for series, counted in zip(rows, counts, strict=True) if counted]
         still = [value for value in found if value is not None]
         if still:
             told.append(f"{words} by {percent(max(map(abs, still)))}{_of(len(still), len(rows))}")
