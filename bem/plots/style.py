@@ -74,6 +74,12 @@ _LOADED, _WIDEST_SPIKE = 0.01, 0.35
 _ALONG = ContextVar("along x", default="x, sliding")
 
 
+def start_at_zero(axes: Axes) -> None:
+    """Begin the vertical axis at zero, with a margin above the highest curve also where the curves are nearly flat."""
+    top = 1.06 * float(axes.dataLim.y1)
+    axes.set_ylim(0, top if 0 < top < float("inf") else None)
+
+
 def along_x() -> str:
     """Name of a map's first axis: "x, sliding" unless the run that is drawn says otherwise."""
     return _ALONG.get()

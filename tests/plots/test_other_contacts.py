@@ -256,6 +256,33 @@ def test_nothing_worn_is_no_curve_over_cycles():
         assert kind.fits(run) is (volume > 0)
 
 
+def over_cycles(values):
+    return (("load", "cycle"), [values])
+
+
+def test_running_in_draws_what_wears_with_a_margin_above_nearly_flat_curves():
+    """Axes from zero cut the peaks of a nearly flat curve; roughness, volume and particles were in no picture."""
+    run = run_of(
+        friction_over_cycles=over_cycles([0.1363, 0.1403, 0.1370]),
+        rms_height_over_cycles=over_cycles([2e-7, 1.9e-7, 1.8e-7]),
+        volume_over_cycles=over_cycles([1e-18, 2e-18, 3e-18]),
+        particles_over_cycles=over_cycles([2.0, 0.0, 1.0]),
+        load=("load", [1.0]),
+        cycle=[1.0, 2.0, 3.0],
+    )
+    kinds = {kind.name: kind for kind in running_in.FIGURES}
+    (friction_axes,) = drawn(kinds["friction-over-cycles"].draw, run).axes
+    assert friction_axes.get_ylim()[1] > 1.04 * 0.1403
+    assert kinds["wear-over-cycles"].fits(run)
+    roughness, volume, particles = drawn(kinds["wear-over-cycles"].draw, run).axes
+    for axes, values in ((roughness, [200, 190, 180]), (volume, [1, 3, 6]), (particles, [2, 0, 1])):
+        assert axes.lines[0].get_ydata() == pytest.approx(values)
+        assert axes.get_ylim() == pytest.approx((0, 1.06 * max(values)))
+    assert "(nm)" in roughness.get_ylabel()
+    run.dataset["volume_over_cycles"][:] = 0.0
+    assert not kinds["wear-over-cycles"].fits(run)
+
+
 def test_a_curve_that_lies_on_another_leaves_it_to_be_seen():
     kind = next(kind for kind in friction.FIGURES if kind.name == "stribeck-curve")
     for above, alike in ((0.0005, True), (0.05, False)):

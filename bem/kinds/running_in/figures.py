@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from bem.plots.cases import along, case_shown, grouped, many_speeds, redoes
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLUE, OPEN, SEQUENTIAL, VERMILION, name_case, said_beyond, speed_axis
+from bem.plots.labels import label, prefix
+from bem.plots.style import BLUE, OPEN, SEQUENTIAL, VERMILION, name_case, said_beyond, speed_axis, start_at_zero
 
 _MEASURED_RADIUS = (210e-9, 236e-9)  # dynamic light scattering at 0.01 m/s, 223 +- 13 nm; thesis, paper D
 Array = NDArray[Any]
@@ -59,11 +60,34 @@ def _cycles(name: str, text: str) -> Any:
         axes.set_ylabel(text)
         axes.set_xlim(1, max(2, cycle[-1]))
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-        axes.set_ylim(0)
+        start_at_zero(axes)
         if len(groups) > 1:
             axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 
     return draw
+
+
+def _wear_over_cycles(run: Any, figure: Figure) -> None:
+    """Roughness, volume worn up to each cycle and particles of each cycle, one above the other."""
+    cycle, rows = run.dataset["cycle"].values, figure.subplots(3, 1, sharex=True)
+    sums = [(group, np.cumsum(values, axis=-1) * 1e18) for group, values in grouped(run, "volume_over_cycles")]
+    heights = grouped(run, "rms_height_over_cycles")
+    factor, unit = prefix(np.concatenate([values.ravel() for _, values in heights]), "m")
+    for axes, groups, text in (
+        (rows[0], [(group, factor * values) for group, values in heights], label("Sq of the rows\nin contact", unit)),
+        (rows[1], sums, "worn volume,\nall bodies (µm³)"),
+        (rows[2], grouped(run, "particles_over_cycles"), "particles per cycle\nof one body"),
+    ):
+        for number, (group, values) in enumerate(groups):
+            colour = matplotlib.colormaps["viridis"](0.85 * number / max(1, len(groups) - 1))
+            axes.plot(cycle, values.mean(axis=0), color=colour, linewidth=1.1, label=group)
+        axes.set_ylabel(text)
+        start_at_zero(axes)
+    rows[2].set_xlabel("cycle")
+    rows[2].set_xlim(1, max(2, cycle[-1]))
+    rows[2].xaxis.set_major_locator(MaxNLocator(integer=True))
+    if len(sums) > 1:
+        rows[0].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
 def _radius_over_speed(run: Any, figure: Figure) -> None:
@@ -194,6 +218,18 @@ FIGURES = (
         _cycles("contact_share", "asperity load share"),
         (6.2, 3.6),
         lambda run: bool((run.dataset["contact_share"].values > 0).any()),
+        all_cases=True,
+    ),
+    FigureKind(
+        "wear-over-cycles",
+        "Roughness of the wearing surface, volume worn up to each cycle and particles of each cycle.",
+        (
+            *("cycle", "rms_height_over_cycles", "volume_over_cycles", "particles_over_cycles"),
+            *("speed", "hardness"),
+        ),
+        _wear_over_cycles,
+        (6.2, 6.0),
+        lambda run: bool((run.dataset["volume_over_cycles"].values > 0).any()),
         all_cases=True,
     ),
     FigureKind(

@@ -28,6 +28,7 @@ KIND = Kind(
         "running-in-stribeck",
         "friction-over-cycles",
         "contact-share-over-cycles",
+        "wear-over-cycles",
         "particle-radius-over-speed",
         "friction-over-hardness",
         "worn-surface",

@@ -86,7 +86,7 @@ def _particles(run: Any, figure: Figure) -> None:
     cycle = _axis(run, axes)
     axes.set_yscale("log")
     axes.plot(cycle, run.dataset["particles_over_cycles"].values, color=BLUE)
-    axes.set_ylabel("pieces that carry away what wore")
+    axes.set_ylabel("particles up to the cycle, lower body")
 
 
 def _pits(run: Any, figure: Figure) -> None:
@@ -135,7 +135,7 @@ FIGURES = (
     ),
     FigureKind(
         "particles-over-life",
-        "How many pieces of the sizes that the criterion finds carry away what wore.",
+        "Particles shed by the lower body up to each cycle, of the sizes that the criterion finds.",
         ("cycle", "particles_over_cycles"),
         _particles,
         _WIDE,

@@ -13,7 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from bem.plots.cases import Array, grouped, redoes
 from bem.plots.figures import FigureKind
 from bem.plots.labels import colour_ends
-from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, map_of, prefix
+from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, map_of, prefix, start_at_zero
 
 _LONG = 2.0
 """Length of a map over its width from which two of them are one above the other."""
@@ -39,7 +39,7 @@ def _over_cycles(axes: Axes, run: Any, found: list[tuple[str, Array]], text: str
     axes.set_ylabel(label(text, shown))
     axes.set_xlim(1, max(2, cycle[-1]))
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.set_ylim(0)
+    start_at_zero(axes)
     if len(found) > 1:
         axes.legend(ncols=min(len(found), 3))
     return factor
