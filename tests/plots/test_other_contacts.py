@@ -268,6 +268,8 @@ def test_running_in_draws_what_wears_with_a_margin_above_nearly_flat_curves():
         volume_over_cycles=over_cycles([1e-18, 2e-18, 3e-18]),
         particles_over_cycles=over_cycles([2.0, 0.0, 1.0]),
         load=("load", [1.0]),
+        speed=("speed", [0.1]),
+        hardness=("hardness", [1e9]),
         cycle=[1.0, 2.0, 3.0],
     )
     kinds = {kind.name: kind for kind in running_in.FIGURES}
