@@ -172,6 +172,8 @@ def _spelled(name: str, value: float) -> str:
         return "" if math.isnan(value) else f"{value - 273.15:.4g} °C"
     if unit == "m/s":
         return with_unit(value, unit)
+    if unit == "Pa*m/s":
+        return f"{1e-6 * value:.3g} MPa m/s"
     return "" if math.isnan(value) else spelled(f"x_{unit}" if unit else "x", value)[1]
 
 

@@ -159,18 +159,21 @@ def _wear(model: PlainBushModel) -> str:
     )
 
 
+def wear_life(model: PlainBushModel) -> tuple[float, float]:
+    """Return sliding distance [m] and hours to the permitted depth of wear; without one to the clearance."""
+    distance = sliding_to_depth(model, model.permitted_wear or 2 * model.radial_clearance)
+    return distance, distance / model.sliding_speed / _HOUR
+
+
 def _life(model: PlainBushModel) -> str:
-    depth = model.permitted_wear
-    assumed = ""
-    if depth is None:
-        depth = 2 * model.radial_clearance
-        assumed = " (the clearance; give permitted_wear)"
-    distance = sliding_to_depth(model, depth)
+    depth = model.permitted_wear or 2 * model.radial_clearance
+    assumed = "" if model.permitted_wear else " (the clearance; give permitted_wear)"
+    distance, lasts = wear_life(model)
     angle = max(
         math.degrees(math.acos(model.radial_clearance / (model.radial_clearance + depth))),
         math.degrees(model.conforming.half_angle),
     )
-    hours = plain_digits(distance / model.sliding_speed / _HOUR, 3)
+    hours = plain_digits(lasts, 3)
     return (
         f"{hours} h ({plain_digits(1e-3 * distance, 3)} km) to a depth of {with_unit(depth, 'm')}{assumed}; the "
         f"contact then reaches {angle:.0f} deg to either side"

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from pydantic_core import PydanticCustomError
 
+from bem.elements.bush_answer import bush_temperature, friction_power_of, wear_life
 from bem.elements.element import Element, load_element, read_element
 from bem.elements.plain_bush import PlainBushModel
 from bem.errors import InputError
@@ -64,6 +65,15 @@ def columns(cases: Sequence[Element]) -> dict[str, list[float | str]]:
         found["peak_pressure [Pa]"] = [one.conforming.maximum_pressure for one in bushes]
         found["mean_pressure [Pa]"] = [one.mean_pressure for one in bushes]
         found["sliding_speed [m/s]"] = [one.sliding_speed for one in bushes]
+        found["pv [Pa*m/s]"] = [one.mean_pressure * one.sliding_speed for one in bushes]
+        if all(one.oil is None or one.friction is not None for one in bushes):  # else friction is that of films
+            power = [friction_power_of(one, None)[0] for one in bushes]
+            found["friction_power [W]"] = list(power)
+            found["bush_temperature [K]"] = [
+                bush_temperature(one, each) for one, each in zip(bushes, power, strict=True)
+            ]
+        if all(one.specific_wear_rate for one in bushes):
+            found["wear_life [h]"] = [wear_life(one)[1] for one in bushes]
         del found["hertz_pressure [Pa]"]
     if all("minimum_film [m]" in one.columns() for one in cases):
         films = [min(one.columns()["minimum_film [m]"]) for one in cases]

@@ -23,7 +23,7 @@ from bem.elements.model import Contacts, ElementModel
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.plain_bush import HOUSING, PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
-from bem.elements.rough_scenes import bush_scene, mixed_scene, rubbing_scene
+from bem.elements.rough_scenes import bush_scene, conducts, mixed_scene, rubbing_scene
 from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
@@ -168,9 +168,9 @@ class Element:
             found["half_angle [rad]"] = [self.model.conforming.half_angle]
             if self._layered:  # no contact of Hertz
                 del found["hertz_pressure [Pa]"], found["half_width [m]"]
-        if self.model.oil is not None and not self._layered:  # the fit knows no layers
+        if self.model.oil is not None:
             oil = self._film_oil().build()
-            films = [one.minimum_film(modulus, oil) for one in contacts]
+            films = [one.minimum_film(self._patch_modulus, oil) for one in contacts]
             found["minimum_film [m]"] = films
             if self.model.rms_roughness is not None:
                 found["film_over_roughness"] = [film / self.model.rms_roughness for film in films]
@@ -228,9 +228,11 @@ class Element:
             notes.append(SLOPES_LARGE(places=len(conforming), first=conforming[0], limit=CONFORMING, reason="element"))
         if (soft := self._yielding()) is not None:
             notes.append(soft)
-        cold = [one.name for one in self.bodies if not one.thermal_diffusivity]
+        cold = dict.fromkeys(one.name for one in self.bodies if not one.thermal_diffusivity)
         if self.model.oil is not None and cold:
-            notes.append(NO_HEAT(bodies=" and ".join(dict.fromkeys(cold))))
+            notes.append(NO_HEAT(bodies=" and ".join(cold), reason="bodies"))
+        elif self.model.film_oil is not None and not conducts(self.model):
+            notes.append(NO_HEAT(reason="oil"))
         ratios = self.columns().get("film_over_roughness", [])
         if touching := sum(ratio < 1 for ratio in ratios):
             notes.append(SURFACES_TOUCH(where=f" at {touching} of {len(ratios)} places"))
@@ -295,7 +297,7 @@ class Element:
 
     @property
     def _patch_modulus(self) -> float:
-        """Contact modulus by which scenes choose their patch [Pa]."""
+        """Contact modulus of films by a fit, and by which scenes choose their patch [Pa]."""
         return self.model.film_modulus if isinstance(self.model, PlainBushModel) else self.modulus
 
     def _film_body_tables(self) -> dict[str, Any]:
@@ -346,9 +348,8 @@ class Element:
             return {**shared, "ball": {"radius": contact.radius, "radius_y": contact.across, "load": contact.load}}
         line_load = contact.line_load(self.modulus)
         width = contact.load / line_load
-        known = all(one.thermal_diffusivity for one in self.bodies)
         return {
-            "thermal": self.model.thermal if known else "off",  # heat needs the constants of both materials
+            "thermal": self.model.thermal if conducts(self.model) else "off",
             **shared,
             "roller": {"radius": contact.radius, "width": width, "load": contact.load},
         }

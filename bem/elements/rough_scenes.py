@@ -249,12 +249,12 @@ def hardness_of(model: ElementModel) -> float | None:
 
 def _thermal(model: ElementModel, contact: ElementContact) -> str:
     """Heat of a film between rough surfaces; across the film it is known for line contacts alone."""
-    if not _conducts(model):
+    if not conducts(model):
         return "off"
     return "lumped" if model.thermal == "full" and contact.length is None else model.thermal
 
 
-def _conducts(model: ElementModel) -> bool:
+def conducts(model: ElementModel) -> bool:
     """True if the lumped heat of the film is defined: both materials have a thermal diffusivity, the oil its
     constants."""
     from bem.friction.setup import HEAT_NEEDS

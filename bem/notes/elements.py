@@ -8,8 +8,16 @@ NO_HEAT = define(
     "element-without-heat",
     INFO,
     "Heat of the film cannot be computed: thermal constants are missing.",
-    "{bodies} without thermal_conductivity, heat_capacity and density.",
-    "Give these constants to have the film's heat.",
+    reasons={
+        "bodies": Reason(
+            "{bodies} without thermal_conductivity, heat_capacity and density.",
+            "Give these constants to have the film's heat.",
+        ),
+        "oil": Reason(
+            "The oil lacks temperature, density, heat_capacity, thermal_conductivity or temperature_viscosity.",
+            "Give these constants, or a grade of the catalogue, to have the film's heat.",
+        ),
+    },
 )
 SURFACES_TOUCH = define(
     "element-surfaces-touch",

@@ -12,6 +12,7 @@ from command_line import run_command
 from bem import InputError, plan_scene, run_scene
 from bem.contact.conforming import ConformingBodies
 from bem.elements.answer import answer, answer_notes, balance_heat
+from bem.elements.cases import columns
 from bem.elements.element import element_template, load_element
 from bem.elements.figure import element_figure
 from bem.elements.plain_bush import DRY_FRICTION, WORN_IN, crescent_distance, sliding_to_depth
@@ -23,6 +24,7 @@ from bem.notes.elements import (
     BUSH_SWINGS,
     BUSH_WARMER_THAN_OIL,
     BUSH_WEARS_IN_FILM,
+    NO_HEAT,
     SURFACES_TOUCH,
 )
 
@@ -112,6 +114,26 @@ def test_a_bush_warmer_than_its_liquid_is_noted():
     assert BUSH_WARMER_THAN_OIL.code not in codes(answer_notes(cooled, run_all(cooled)))
 
 
+def test_an_oil_without_heat_constants_has_an_isothermal_film():
+    element = load_element(WATER | {"oil": {key: WATER["oil"][key] for key in ("viscosity", "pressure_viscosity")}})
+    assert element.scene(element.worst(), "traction")["thermal"] == "off"
+    assert NO_HEAT.code in codes(element.notes())
+    assert run_all(element)[0].converged
+
+
+def test_cases_of_a_bush_have_its_answers():
+    cases = [load_element(WORN | {"name": str(load), "radial_load": f"{load} N"}) for load in (250, 500)]
+    found = columns(cases)
+    assert found["pv [Pa*m/s]"][1] == pytest.approx(cases[1].model.mean_pressure * cases[1].model.sliding_speed)
+    power = DRY_FRICTION * 500 * cases[1].model.sliding_speed
+    assert found["friction_power [W]"] == pytest.approx([power / 2, power])
+    assert found["bush_temperature [K]"][1] == pytest.approx(293.15 + power / (15 * 15 * 0.02 * 0.02))
+    assert f"{found['wear_life [h]'][1]:.3g} h" in dict(answer(cases[1], ()))["wear life"]
+    wet = columns([load_element(WATER)])
+    assert "friction_power [W]" not in wet
+    assert wet["film_over_roughness"][0] == pytest.approx(0.84, abs=0.06)
+
+
 def test_wear_under_a_full_film_is_noted():
     oil = WATER["oil"] | {"viscosity": "40 mPa*s"}
     worn = WATER | {"thermal": "off", "oil": oil, "specific_wear_rate": "1e-6 mm3/(N m)"}
@@ -138,7 +160,7 @@ def test_a_wall_is_a_layer_of_films_and_scenes(tmp_path):
     softer = thick[0].minimum_film / runs[0].minimum_film
     assert softer == pytest.approx((model.film_modulus / element.modulus) ** 0.4, rel=0.05)
     assert SURFACES_TOUCH.code in codes(answer_notes(element, runs))
-    assert "minimum_film [m]" not in element.columns()
+    assert element.columns()["minimum_film [m]"][0] == pytest.approx(runs[0].minimum_film, rel=0.08)
     mixed = element.scene(element.worst(), "friction")
     assert "grid" not in mixed
     assert mixed["upper"] == {"material": "peek"}
