@@ -150,7 +150,11 @@ RANGES: tuple[UsualRange, ...] = (
     ),
     UsualRange("load per unit length", "N/m", 1e-6, 1e8, ("load_per_length",), (("N/mm", 1e3),)),
     UsualRange(
-        "pressure", "Pa", 1e3, 2e10, ("hertz_pressure", "hertz_pressures", "mean_pressure"), _PRESSURES,
+        "pressure", "Pa", 1e3, 2e10, ("hertz_pressure", "hertz_pressures"), _PRESSURES,
+        "rolling contacts have 0.5 to 4 GPa",
+    ),
+    UsualRange(
+        "mean pressure", "Pa", 1e3, 2e10, ("mean_pressure",), _PRESSURES[::-1],
         "joints have 1 to 100 MPa, rolling contacts 0.5 to 4 GPa",
     ),
     UsualRange("torque", "N*m", 1e-6, 1e7, ("torque",), (("N*mm", 1e-3),)),

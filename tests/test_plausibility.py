@@ -61,6 +61,11 @@ def test_a_key_has_one_range_and_a_quantity_one_entry():
     assert sum(len(usual.keys) for usual in RANGES) == len(BY_KEY)
 
 
+def test_a_small_mean_pressure_is_meant_in_megapascal():
+    for key, unit in (("contact.mean_pressure", "MPa"), ("contact.hertz_pressure", "GPa")):
+        assert f'write "20 {unit}"' in range_of_key(key).note(key, 20.0)
+
+
 def test_the_table_of_a_key_and_its_unit_decide_between_ranges():
     assert range_of_key("oil.density").quantity == "density of a liquid"
     assert range_of_key("lower.layers[1].material.density").quantity == "density"

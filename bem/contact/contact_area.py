@@ -96,7 +96,8 @@ def contact_region(
     cap: float = math.inf,
     compliance: float = 0.0,
 ) -> Region:
-    """Return the region in contact; below a cap, at least the area that carries the load at the cap.
+    """Return the region in contact; of bodies that are not worn at least the area that carries the load at the highest
+    pressure.
 
     Parameters
     ----------
@@ -122,7 +123,16 @@ def contact_region(
         area = min(max(area, 0.0), grid.area)
     if math.isfinite(cap) and inside.any():
         area = max(area, _capped_area(inside, pressure, cap, crossed, grid))
-    return found.of_area(area)
+    return found.of_area(area if compliance > 0 else max(area, _least_area(pressure, grid)))
+
+
+def _least_area(pressure: FloatArray, grid: Grid) -> float:
+    """Return the area [m^2] over which the mean of the pressures (nx, ny) [Pa] is the highest of them.
+
+    The law of the boundary leaves a lone cell a tenth of its area, over which the mean would exceed every pressure.
+    """
+    highest = float(pressure.max())
+    return float(np.maximum(pressure, 0.0).sum()) / highest * grid.cell_area if highest > 0 else 0.0
 
 
 def _beyond_kinks(inside: NDArray[np.bool_], worn: FloatArray, crossed: Crossed, grid: Grid) -> float:
