@@ -60,7 +60,8 @@ NO_ERROR_BAR = define(
         NoBar.TOO_SMALL: "The grid is too small to be compared with one of twice the cell; take more cells.",
         NoBar.FREE_EDGE: "The contact reaches a free edge of the grid, where bodies end and pressures have no limit.",
         NoBar.FEW_CELLS_WIDE: (
-            "The contact is one or two cells wide, and its figures follow the cells; take a finer grid."
+            "The contact is one or two cells wide, and its figures follow the cells; take a finer grid, of "
+            "measured surfaces a finer map."
         ),
         NoBar.IMPOSSIBLE: "What is prescribed cannot be met on the grid of twice the cell.",
         NoBar.NARROW_RING: "The zone that slips is narrower than a cell, and its energy follows the cells; take more.",
@@ -106,7 +107,7 @@ NO_ERROR_BAR = define(
         NoBar.FEW_FILM_CELLS: "Half as many cells are too few to compare with: take {nx} x {ny} cells.",
         NoBar.SINGLE_LOOP: (
             "A single loop has none: cycles.coarser_grid = true makes it once more on the grid of twice the cell; "
-            "repetitions show how figures scatter with the surface."
+            "repetitions show how figures scatter with the surface, of measured surfaces runs on other maps."
         ),
         NoBar.OF_KIND: "{why}.",
     },

@@ -118,6 +118,12 @@ MAP_COARSE = define(
             " smoothed surface.",
             "Take larger cells, or a finer map.",
         ),
+        "interpolated": Reason(
+            "Cells are {finer:.2g} times finer than the points ({apart}): the roughness between the points is "
+            "interpolated.",
+            "Finer cells show no finer roughness; measure with a finer spacing for that.",
+            INFO,
+        ),
     },
 )
 
@@ -230,7 +236,8 @@ PATCH_SHORT = define(
     CAUTION,
     "The patch is short; a few summits decide its figures.",
     "",
-    "Take a larger patch or several repetitions, or remove form with detrend or high_pass.",
+    "Take a larger patch or several repetitions (of measured surfaces other maps), or remove form with detrend or "
+    "high_pass.",
     reasons={
         "unknown": "The autocorrelation of the {body} surface does not fall to 1/e within half of the patch.",
         "few": "The patch is {lengths:.2g} correlation lengths of the {body} surface long.",

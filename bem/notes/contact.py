@@ -54,7 +54,7 @@ CONTACT_UNRESOLVED = define(
         "spots": Reason(
             "The true area lies between the load over the hardness and the counted area{of}, which is {times:.2f}"
             " times larger.",
-            "Take a finer grid.",
+            "Take a finer grid; of a measured surface measure with a finer spacing, as finer cells only interpolate.",
             headline="Contact spots are one or two cells wide; their area is uncertain.",
         ),
     },

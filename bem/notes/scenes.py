@@ -100,6 +100,13 @@ MAP_ALTERED = define(
             "{change:si m} rms.",
             headline=_PERIODIC,
         ),
+        "seams-large": Reason(
+            "The step where its ends meet is spread out, which changes the heights by {change:si m} rms; Sq is then "
+            "{height:si m}.",
+            'Set mirror = "both" in its surface, grid.periodic = false, or remove form with detrend or high_pass.',
+            CAUTION,
+            headline="Making the map periodic changed its heights much.",
+        ),
         "scaled": Reason(
             "They are multiplied by {factor:.2g} to have Sq {height:si m}, and slopes with them.",
             "Leave rms_height out, or use a map of such a surface.",

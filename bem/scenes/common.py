@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self, TypeVar
 
-from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
+from pydantic import BaseModel, Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from bem.errors import InputError
@@ -801,6 +801,18 @@ def refuse_relaxation(scene: Table, allowed: str) -> None:
         raise problem(f"{name}.material relaxes", allowed)
 
 
+def _rough_surfaces(value: Any) -> Iterator[GeneratedSurface | MeasuredSurface]:
+    """Yield the tables of rough surfaces inside a value of a scene."""
+    if isinstance(value, GeneratedSurface | MeasuredSurface):
+        yield value
+    elif isinstance(value, BaseModel):
+        for name in type(value).model_fields:
+            yield from _rough_surfaces(getattr(value, name))
+    elif isinstance(value, list | tuple):
+        for one in value:
+            yield from _rough_surfaces(one)
+
+
 class SceneModel(Table):
     """Keys of every scene. `redoes` names the figure or table of the thesis that the scene repeats.
 
@@ -858,6 +870,17 @@ class SceneModel(Table):
     def source(self) -> dict[str, Any] | None:
         """The table as it was written, of a scene with `over`: what keys change is changed there."""
         return self._source
+
+    @model_validator(mode="after")
+    def _repetitions_of_generated_surfaces(self) -> Self:
+        kinds = {type(surface) for surface in _rough_surfaces(self)}
+        if (self.repetitions or 1) > 1 and kinds == {MeasuredSurface}:
+            allowed = (
+                "1, or a generated surface; take other maps or parts of maps instead, such as --over "
+                "lower.surface.path=spot1.al3d,spot2.al3d (or crop and centre of the surface)"
+            )
+            raise problem("repetitions: all surfaces are measured, so that all repetitions would be equal", allowed)
+        return self
 
     @model_validator(mode="after")
     def _relaxation_where_time_is(self) -> Self:

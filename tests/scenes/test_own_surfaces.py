@@ -186,3 +186,44 @@ def test_a_grid_on_two_maps_does_not_reach_beyond_the_smaller(sides, tmp_path):
     planned, _ = plan_scene(scene)
     assert build.grid_of(planned.grid).spacing == pytest.approx((max(sides),) * 2, rel=1e-10, abs=0)
     assert len(examine(planned).surfaces) == 2  # heights on the grid
+
+
+@pytest.mark.parametrize("kind", ["contact", "running-in"])
+def test_repetitions_of_measured_surfaces_are_refused(kind, tmp_path):
+    """They would be equal, with a scatter of zero; beside a generated surface they differ."""
+    path = tmp_path / "mine.toml"
+    path.write_text(scene_template(kind, surfaces=FILES, folder=tmp_path))
+    with pytest.raises(InputError, match=r"repetitions: all surfaces are measured.*lower\.surface\.path="):
+        plan_scene(path, ["repetitions=3"])
+    generated = 'upper.surface={ kind = "generated", rms_height = "50 nm", correlation_length = "5 um" }'
+    assert plan_scene(path, ["repetitions=3", generated])[0].repetitions == 3
+
+
+def seam_notes(path, *settings):
+    notes = scene_warnings(examine(plan_scene(path, settings)[0]))
+    return [note for note in notes if (note.code, note.values.get("reason")) == ("map-altered", "seams-large")]
+
+
+def test_a_map_bent_to_be_periodic_has_a_caution_with_what_to_do(tmp_path):
+    """Roughness of 20 nm on a cubic form of 200 nm, which removal of curvature leaves."""
+    grid = Grid((96, 96), (0.5e-6, 0.5e-6), periodic=(True, True))
+    heights = generate_surface(grid, rms_height=20e-9, correlation_length=2e-6, seed=1)
+    form = 200e-9 * np.linspace(-1, 1, 96)[:, None] ** 3
+    scene = tmp_path / "mine.toml"
+    for bent, files in ((0, heights), (1, heights + form)):
+        file = _map(tmp_path / f"map{bent}.npz", files, grid.spacing)
+        scene.write_text(scene_template("contact", surfaces={"lower": file}, folder=tmp_path))
+        found = seam_notes(scene)
+        assert [note.level for note in found] == [Level.CAUTION] * bent
+    assert 'mirror = "both"' in found[0]
+    assert not seam_notes(scene, "lower.surface.mirror=both")
+
+
+def test_cells_finer_than_the_map_have_a_remark(tmp_path):
+    scene = tmp_path / "mine.toml"
+    scene.write_text(scene_template("contact", surfaces={"lower": FILES["lower"]}, folder=tmp_path))
+    levels = []
+    for spacing in ("0.8 um", "0.5 um", "0.3 um"):
+        facts = examine(plan_scene(scene, ["grid.shape=96", f"grid.spacing={spacing}"])[0])
+        levels.append([note.level for note in scene_warnings(facts) if note.code == "map-coarse"])
+    assert levels == [[], [Level.INFO], [Level.CAUTION]]

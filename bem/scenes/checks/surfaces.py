@@ -17,7 +17,11 @@ from bem.scenes.checks.words import times
 _FILLED = 0.03
 _KURTOSIS = 10.0
 """Sku above which a map with outliers is doubted; 3 is Gaussian, honed liners have 5 to 9."""
+_SEAMS = 0.3
+"""Change of the heights over their Sq above which a map made periodic is another surface."""
 _POINTS = 32
+_FINER = 1.1
+"""Distance of points over cell size above which a remark says that roughness between the points is interpolated."""
 _ROUND_OFF = 1e-9
 """Rounding error of a count of points, a length divided by a spacing."""
 
@@ -68,9 +72,10 @@ def surface_interpolated_from_few_points(facts: Facts) -> Iterator[Note]:
         if min(surface.source_points) < _POINTS * (1 - _ROUND_OFF):
             apart = times(surface.source_spacing, "m")
             yield MAP_COARSE(case.note_place(f"{surface.body}.surface"), points=points, apart=apart, reason="points")
-        elif finer > 2:
+        elif finer > _FINER:
             apart = times(surface.source_spacing, "m")
-            yield MAP_COARSE(case.note_place(f"{surface.body}.surface"), finer=finer, apart=apart, reason="cells")
+            reason = "cells" if finer > 2 else "interpolated"
+            yield MAP_COARSE(case.note_place(f"{surface.body}.surface"), finer=finer, apart=apart, reason=reason)
 
 
 def _counted(points: float) -> str:
@@ -80,6 +85,15 @@ def _counted(points: float) -> str:
 
 def _fewness(surface: RoughSurface) -> float:
     return math.nan if surface.source_points is None else 1 / min(surface.source_points)
+
+
+@scene_check
+def seams_that_alter_the_map(facts: Facts) -> Iterator[Note]:
+    """A map whose opposite edges differ by more than its roughness is bent to meet itself."""
+    for _, case, surface in facts.worst_surfaces(lambda surface: surface.seams / surface.rms_height):
+        if surface.seams > _SEAMS * surface.rms_height:
+            where = case.note_place(f"{surface.body}.surface")
+            yield MAP_ALTERED(where, change=surface.seams, height=surface.rms_height, reason="seams-large")
 
 
 @scene_check

@@ -39,6 +39,7 @@ class RoughSurface:
     source_spacing : their distance [m].
     spikes, kurtosis : points of a measured map that `despike` would remove, and Sku of the map; 0 where despiked.
     scaled : what heights were multiplied by to meet `rms_height`.
+    seams : rms change of the heights by which the map was made periodic [m].
     """
 
     body: str
@@ -54,6 +55,7 @@ class RoughSurface:
     scaled: float | None = None
     spikes: int = 0
     kurtosis: float = 0.0
+    seams: float = 0.0
 
     @property
     def shortest_wave(self) -> float | None:
@@ -194,13 +196,14 @@ def _described_map(body: str, table: MeasuredSurface, grid: Grid, content: str) 
     mirrored = (table.mirror in ("x", "both"), table.mirror in ("y", "both"))
     under = [n / (1 + m) * d for n, d, m in zip(grid.shape, grid.spacing, mirrored, strict=True)]
     points = (under[0] / found.spacing[0], under[1] / found.spacing[1])
-    scaled = None
+    scaled, seams = None, 0.0
     if grid.cells <= 4 * _CELLS:
         if table.rms_height is not None:
             plain = table.model_copy(update={"rms_height": None})
             scaled = table.rms_height / float(maps.map_on(plain, grid).heights.std() or math.nan)
         on_grid = maps.map_on(table, grid)
         description, done = _described(on_grid.heights, grid), on_grid.notes
+        seams = sum(float(note.values["change"]) for note in on_grid.notes if note.values.get("reason") == "seams")
     else:
         description = _described(found.heights, found.grid())
         done = ("Sq, slope and correlation length are those of the map as it was measured",)
@@ -213,6 +216,7 @@ def _described_map(body: str, table: MeasuredSurface, grid: Grid, content: str) 
         (_origin(table, found), *(line.removeprefix(f"{Path(table.path).name}: ") for line in done)),
         *description,
         filled=missing / whole,
+        seams=seams,
         source_points=points,
         source_spacing=found.spacing,
         scaled=scaled,
