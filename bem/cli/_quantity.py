@@ -44,6 +44,26 @@ def pair_of_lengths(text: str | None, option: str) -> tuple[float, float] | None
     return parts[0], parts[-1]
 
 
+_WIDEST = 1e-3
+"""Largest distance of the points of a measured map [m]; profilometers have 0.1 nm to 0.1 mm."""
+
+
+def spacing_of_points(text: str | None, option: str) -> tuple[float, float] | None:
+    """Distances of the points of a measured map along x and y [m]; None stays None.
+
+    Raises
+    ------
+    InputError : points more than 1 mm apart, as of a number without a unit.
+    """
+    sides = pair_of_lengths(text, option)
+    if sides is not None and max(sides) > _WIDEST:
+        raise InputError(
+            f'{option} "{text}": points {max(sides):.4g} m apart are no measured roughness (a number alone is in '
+            'metres); allowed: up to 1 mm, with its unit, such as "1 um"'
+        )
+    return sides
+
+
 def pair_of_cells(text: str, option: str) -> tuple[int, int]:
     """One number of cells for both axes, or two separated by a comma or an x."""
     try:

@@ -102,14 +102,14 @@ def _map_scale(spacing: str | None, height_unit: str | None) -> MapScale | None:
     """Return the scale of files that do not say it; None if neither option is given."""
     if spacing is None and height_unit is None:
         return None
-    from bem.cli._quantity import pair_of_lengths
+    from bem.cli._quantity import spacing_of_points
     from bem.errors import InputError
     from bem.scenes.own_surfaces import MapScale
     from bem.surfaces.read import METRES
 
     if height_unit is not None and height_unit not in METRES:
         raise InputError(f'--height-unit "{height_unit}": allowed: {", ".join(METRES)}')
-    return MapScale(pair_of_lengths(spacing, "--spacing"), height_unit)
+    return MapScale(spacing_of_points(spacing, "--spacing"), height_unit)
 
 
 def element_text(name: str) -> str:

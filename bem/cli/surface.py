@@ -150,7 +150,7 @@ def describe(
 
     if figure is not None:
         new_file(figure, "--figure", (".png", ".pdf", ".svg"))
-    surfaces = [_read(file, detrend, fill, channel, spacing, height_unit, despike, level_lines) for file in files]
+    surfaces = _read_several(files, detrend, fill, channel, spacing, height_unit, despike, level_lines)
     if len(files) == 1:
         _print_json(files[0], surfaces[0]) if json else _show(surfaces[0], files[0].name)
     else:
@@ -220,28 +220,66 @@ def _read(
     despike: float | None,
     level_lines: bool,
 ) -> Surface:
-    from bem.cli._quantity import pair_of_lengths
+    from bem.cli._quantity import spacing_of_points
     from bem.errors import InputError
     from bem.surfaces import read_surface
-    from bem.surfaces.read import UnstatedScaleError
+    from bem.surfaces.read import UnstatedScaleError, slope_in_metres, states_scale
 
+    sides = spacing_of_points(spacing, "--spacing")
+    chosen = int(channel) if channel is not None and channel.isdigit() else channel
     try:
-        return read_surface(
+        surface = read_surface(
             file,
             # a plain map is a surface already: levelling it again would change its statistics and open its seams
             detrend=detrend or ("none" if file.suffix.lower() == ".npz" else "plane"),
             fill=fill,
-            channel=int(channel) if channel is not None and channel.isdigit() else channel,
-            spacing=pair_of_lengths(spacing, "--spacing"),
+            channel=chosen,
+            spacing=sides,
             height_unit=height_unit,
             despike=despike,
             level_lines=level_lines,
         )
     except UnstatedScaleError as error:
+        wants = {
+            "how far its points are apart": None if sides else '--spacing "0.5 um"',
+            "in which unit its heights are": None if height_unit else "--height-unit nm",
+        }
+        missing = {words: option for words, option in wants.items() if option is not None} or wants
         raise InputError(
-            f"{file.name}: does not say how far its points are apart, or in which unit its heights are; allowed: with "
-            '--spacing and --height-unit, such as --spacing "0.5 um" --height-unit nm'
+            f"{file.name}: does not say {', or '.join(missing)}; allowed: with {' '.join(map(str, missing.values()))}"
         ) from error
+    if sides is not None and height_unit is None and not states_scale(file, chosen):
+        slope = slope_in_metres(surface)
+        if slope is not None:
+            raise InputError(
+                f"{file.name}: does not say in which unit its heights are, and in metres they would have an rms slope "
+                f"of {slope:.2g}; allowed: with --height-unit, such as nm or um"
+            )
+    return surface
+
+
+def _read_several(
+    files: list[Path],
+    detrend: str | None,
+    fill: bool,
+    channel: str | None,
+    spacing: str | None,
+    height_unit: str | None,
+    despike: float | None,
+    level_lines: bool,
+) -> list[Surface]:
+    """Read maps; spacing and unit of heights are for the files that do not say them, if there are any."""
+    from bem.surfaces.read import states_scale
+
+    stated = [False] * len(files)
+    if len(files) > 1 and (spacing is not None or height_unit is not None):
+        stated = [states_scale(file) for file in files]
+        stated = [one and not all(stated) for one in stated]
+    scales = [(None, None) if own else (spacing, height_unit) for own in stated]
+    return [
+        _read(file, detrend, fill, channel, *scale, despike, level_lines)
+        for file, scale in zip(files, scales, strict=True)
+    ]
 
 
 def _show(surface: Surface, name: str) -> None:
@@ -418,6 +456,12 @@ def _show_measurements(files: list[Path], surfaces: list[Surface], *, json: bool
         print(
             f"Sq scatters by {height.scatter / height.mean:.0%}, by the finite size of the maps alone by "
             f"{height.finite_size / height.mean:.0%}: the surface differs from place to place, or the measurements do."
+        )
+    fits = found.parameters.get("spectrum_hurst")
+    if fits is not None and fits.known.size < len(files):
+        print(
+            f"Spectra of {len(files) - fits.known.size} of {len(files)} maps are not self-affine: Hurst exponent and "
+            "roll-off wavelength leave them out."
         )
     spacings = sorted({max(one.spacing) for one in surfaces})
     if spacings[-1] > _SAME_SPACING * spacings[0]:

@@ -25,8 +25,6 @@ _MOST_FILLED = 0.25
 """Share of missing points of a map above which filling them draws most of what touches."""
 _SAME_SPACING = 0.7
 """Ratio of the spacings of two maps above which the finer one is taken for the grid."""
-_STEEPEST = 3.0
-"""Rms slope above which heights without a unit are not in metres."""
 _MOST_CELLS = 192
 """Cells along an axis of a first mesh: a wear loop of 100 cycles takes some minutes."""
 _MARGIN = 2.2
@@ -170,24 +168,25 @@ def _scale_of(body: str, path: str, scale: MapScale) -> MapScale | None:
     ------
     InputError : such a file without a spacing, or in metres by which its slopes are no surface's.
     """
-    from bem.surfaces import describe_surface, read_surface
-    from bem.surfaces.read import UnstatedScaleError
+    from bem.surfaces import read_surface
+    from bem.surfaces.read import slope_in_metres, states_scale
 
     name = Path(path).name
-    try:
-        read_surface(path)
-    except UnstatedScaleError:
-        if scale.spacing is None:
-            raise InputError(
-                f"--{body}: {name} does not say how far its points are apart, nor in which unit its heights are; "
-                'allowed: with --spacing and --height-unit, such as --spacing "0.5 um" --height-unit nm'
-            ) from None
-    else:
+    if states_scale(path):
         return None
+    if scale.spacing is None and scale.height_unit is None:
+        raise InputError(
+            f"--{body}: {name} does not say how far its points are apart, nor in which unit its heights are; "
+            'allowed: with --spacing and --height-unit, such as --spacing "0.5 um" --height-unit nm'
+        )
+    if scale.spacing is None:
+        raise InputError(
+            f"--{body}: {name} does not say how far its points are apart; allowed: with --spacing, such as "
+            '--spacing "0.5 um"'
+        )
     if scale.height_unit is None:
-        surface = read_surface(path, spacing=scale.spacing)
-        slope = describe_surface(surface).Sdq
-        if slope > _STEEPEST:
+        slope = slope_in_metres(read_surface(path, spacing=scale.spacing))
+        if slope is not None:
             raise InputError(
                 f"--{body}: {name} does not say in which unit its heights are, and in metres they would have an rms "
                 f"slope of {slope:.2g}; allowed: with --height-unit, such as nm or um"

@@ -128,6 +128,8 @@ class Measurements:
 def describe_measurements(surfaces: Sequence[Surface]) -> Measurements:
     """Describe several measurements of one surface: every parameter with its scatter, and the averaged spectrum.
 
+    Maps whose spectrum is not self-affine (a Hurst exponent outside 0 to 1) have no parameters of its fit.
+
     Parameters
     ----------
     surfaces : two or more maps; cells and sizes may differ.
@@ -138,7 +140,7 @@ def describe_measurements(surfaces: Sequence[Surface]) -> Measurements:
     """
     if len(surfaces) < 2:
         raise InputError(f"describe_measurements: {len(surfaces)} map; give two or more")
-    found = [parameters_of(surface) for surface in surfaces]
+    found = [_of_self_affine(parameters_of(surface)) for surface in surfaces]
     names = dict.fromkeys(name for one in found for name in one)
     parameters = {}
     for name in names:
@@ -146,6 +148,13 @@ def describe_measurements(surfaces: Sequence[Surface]) -> Measurements:
         finite = math.sqrt(float(np.mean(np.square(errors))))
         parameters[name] = ParameterScatter(tuple(one.get(name, math.nan) for one in found), finite)
     return Measurements(parameters, mean_spectrum(surfaces))
+
+
+def _of_self_affine(parameters: dict[str, float]) -> dict[str, float]:
+    """Return the parameters of a map, those of the fit to its spectrum as nan where it falls as no self-affine one."""
+    if 0 < parameters.get("spectrum_hurst", 0.5) < 1:
+        return parameters
+    return {name: math.nan if name.startswith("spectrum_") else value for name, value in parameters.items()}
 
 
 def mean_spectrum(surfaces: Sequence[Surface]) -> MeanSpectrum:

@@ -277,6 +277,32 @@ class UnstatedScaleError(SurfaceFileError):
     """A surface file that does not say how far its points are apart, or in which unit its heights are."""
 
 
+def states_scale(path: str | os.PathLike[str], channel: str | int | None = None) -> bool:
+    """Return True if a surface file says how far its points are apart and in which unit its heights are.
+
+    Raises
+    ------
+    SurfaceFileError : a file that cannot be read.
+    """
+    try:
+        read_surface(path, detrend="none", channel=channel)
+    except UnstatedScaleError:
+        return False
+    return True
+
+
+STEEPEST_SLOPE = 3.0
+"""Rms slope of a levelled map above which heights without a unit are not in metres."""
+
+
+def slope_in_metres(surface: Surface) -> float | None:
+    """Return the rms slope of a map whose heights were taken for metres, if it is no surface's; None if it can be."""
+    from bem.surfaces.describe import describe_surface
+
+    slope = describe_surface(surface).Sdq
+    return slope if slope > STEEPEST_SLOPE else None
+
+
 def _without_spacing(file: Path) -> UnstatedScaleError:
     return UnstatedScaleError(
         f"{file}: does not say how far its points are apart; give spacing=(dx, dy) in metres and height_unit "

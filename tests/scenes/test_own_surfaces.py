@@ -124,7 +124,8 @@ def test_files_of_plain_numbers_take_spacing_and_unit(ending, tmp_path):
     for options, missing in (
         ([], 'with --spacing and --height-unit, such as --spacing "0.5 um"'),
         (["--spacing", "0.5 um"], "with --height-unit, such as nm"),
-        (["--height-unit", "nm"], "with --spacing and --height-unit"),
+        (["--height-unit", "nm"], 'apart; allowed: with --spacing, such as --spacing "0.5 um"'),
+        (["--spacing", "1", "--height-unit", "nm"], "a number alone is in metres); allowed: up to 1 mm, with its unit"),
         (["--spacing", "0.5 um", "--height-unit", "yards"], '--height-unit "yards": allowed: m,'),
     ):
         result = CliRunner().invoke(command_line(), [*given, *options])

@@ -71,3 +71,16 @@ def test_the_scatter_of_random_amplitudes_falls_with_the_waves_of_a_ring():
     many[-1] = False  # the last ring alone ends the curve
     ratio = mean.scatter[many] / np.sqrt(2 / modes[many])
     assert np.mean(ratio) == pytest.approx(1.0, abs=0.1)
+
+
+def test_maps_that_are_not_self_affine_have_no_part_in_the_hurst_exponent():
+    """The spectrum of a Gaussian autocorrelation falls faster than that of any self-affine surface."""
+    grid = Grid((128, 128), (1e-7, 1e-7), periodic=(True, True))
+    heights = generate_surface(grid, rms_height=1e-7, seed=3, correlation_length=1e-6)
+    smooth = Surface(heights, (1e-7, 1e-7), {"periodic": [True, True]})
+    found = describe_measurements([measured(1), smooth]).parameters
+    alone = describe_measurements([measured(1), measured(1)]).parameters
+    for name in ("spectrum_hurst", "spectrum_rolloff_wavelength"):
+        assert found[name].known.size == 1
+        assert found[name].mean == alone[name].mean
+    assert found["Sq"].known.size == 2

@@ -122,3 +122,38 @@ def test_particles(call, tmp_path):
     assert code == 0
     assert "no particles" in out
     assert json.loads((tmp_path / "none.json").read_text())["length_nm"] is None
+
+
+@pytest.fixture
+def table(tmp_path):
+    """Heights of 100 nm rms in nanometres, as numbers alone."""
+    heights = 1e-7 * np.random.default_rng(5).standard_normal((48, 48))
+    np.savetxt(tmp_path / "disk.txt", heights / 1e-9)
+    return tmp_path / "disk.txt"
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--spacing", "1 um"), "in metres they would have an rms slope of"),
+        (("--spacing", "1"), "a number alone is in metres"),
+        (("--height-unit", "nm"), 'how far its points are apart; allowed: with --spacing "0.5 um"'),
+        ((), 'with --spacing "0.5 um" --height-unit nm'),
+    ],
+)
+def test_a_table_without_its_scale_is_refused_by_every_command(call, table, options, message):
+    for command in (("describe", table), ("read", table, table.with_suffix(".npz"))):
+        code, out, err = call("surface", *command, *options)
+        assert (code, out) == (2, "")
+        assert message in err
+    assert not table.with_suffix(".npz").exists()
+
+
+def test_a_scale_is_for_the_maps_that_do_not_say_it(call, table):
+    code, out, err = call(
+        "surface", "describe", table, "example/ground-disk.al3d", "--spacing", "0.5 um", "--height-unit", "nm", "--json"
+    )
+    assert code == 0, err
+    heights = json.loads(out)["parameters"]["Sq"]["values"]
+    assert heights[0] == pytest.approx(1e-7, rel=0.05, abs=0)
+    assert heights[1] == pytest.approx(read_surface("example/ground-disk.al3d").heights.std(), rel=1e-9, abs=0)
