@@ -11,8 +11,7 @@ from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.reference_solutions import pin_in_hole
 
-_SHARED = {
-    "johnson1985": "Hertz contacts",
+_FILM = {
     "dowson1966": "film formula",
     **dict.fromkeys(running.CITES, "estimated load share of asperities"),
 }
@@ -30,7 +29,8 @@ _OF_MODEL: dict[type, dict[str, str]] = {
 
 def sources_of_element(element: Element) -> dict[str, list[str]]:
     """Return the keys of the sources of an element's answer, each with the methods that it is the source of."""
-    found = _SHARED | _OF_MODEL[type(element.model)]
+    hertz = {} if isinstance(element.model, PlainBushModel) else {"johnson1985": "Hertz contacts"}
+    found = hertz | ({} if element.model.film_oil is None else _FILM) | _OF_MODEL[type(element.model)]
     if element.model.specific_wear_rate is not None:
         found = found | dict.fromkeys(element_wear.CITES, "wear")
     return {key: [method] for key, method in found.items()}
