@@ -30,7 +30,8 @@ class Reference:
         told = {name: _plain(value) for name, value in self.fields.items()}
         authors = told["author"].split(" and ")
         names = ", ".join(authors[:-1]) + (" and " if len(authors) > 1 else "") + authors[-1]
-        place = next((told[name] for name in ("journal", "booktitle", "publisher", "school") if name in told), "")
+        places = ("journal", "booktitle", "publisher", "school", "howpublished")
+        place = next((told[name] for name in places if name in told), "")
         pages = f", {told['pages']}" if "pages" in told else ""
         where = " ".join(part for part in (place, told.get("volume", "")) if part)
         note = f" ({told['note']})" if "note" in told else ""

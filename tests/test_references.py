@@ -11,6 +11,7 @@ from bem.materials import CATALOGUE
 from bem.references import references
 from bem.runs import plan_scene, run_scene
 from bem.scenes.kind import kind_names, sources_of_kind
+from bem.scenes.load import library_text
 
 
 def sources(name, *settings):
@@ -38,7 +39,7 @@ def test_every_key_that_is_cited_has_an_entry():
         for table in (
             *cited._HEAT.values(),
             *(cited._GENERATED, cited._MOMENTS, cited._LAYERED, cited._DESPIKED, cited._PARAMETERS),
-            *(cited._UNCOUPLED, cited._FLOW_FACTORS, cited._COUPLING, cited._FILM_DEFECT),
+            *(cited._SEAMS_CLOSED, cited._UNCOUPLED, cited._FLOW_FACTORS, cited._COUPLING, cited._FILM_DEFECT),
         )
         for key in table
     }
@@ -149,3 +150,36 @@ def test_another_parser_reads_the_bibtex():
         authors = fields.pop("author").split(" and ")
         assert len(entry.persons["author"]) == len(authors), key
         assert dict(entry.fields) == fields, key
+
+
+def test_every_scene_and_element_cites_this_program(tmp_path):
+    assert "bem2026" in sources("hertz-sphere")
+    path = tmp_path / "mine.toml"
+    path.write_text(element_template("gear-pair"))
+    assert references()["bem2026"].bibtex in CliRunner().invoke(build(), ["cite", str(path), "--bibtex"]).output
+
+
+def test_maps_made_periodic_cite_the_method():
+    pair = ("lower.surface.path=example/ground-disk.al3d", "upper.surface.path=example/polished-pin.x3p")
+    mirrored = ("lower.surface.mirror=both", "upper.surface.mirror=both")
+    assert "moisan2011" in sources("measured-surfaces", *pair, "grid.periodic=true")
+    assert "moisan2011" in sources("measured-surfaces", *pair, "grid.periodic=true", mirrored[0])
+    assert "moisan2011" not in sources("measured-surfaces", *pair, "grid.periodic=true", *mirrored)
+    assert "moisan2011" not in sources("rough-contact")
+
+
+def test_a_sweep_a_file_of_a_run_and_a_wrong_name(tmp_path):
+    run = tmp_path / "s" / "points" / "1"
+    run.mkdir(parents=True)
+    (run / "scene.toml").write_text(library_text("hertz-sphere"))
+    (run / "results.nc").write_bytes(b"")
+
+    def cite(name):
+        done = CliRunner().invoke(build(), ["cite", str(name)])
+        return done.output + str(done.exception)
+
+    assert "Kalker, J. J. (1977)" in cite(tmp_path / "s")
+    assert f"allowed: the folder of the run, {run}, or" in cite(run / "results.nc")
+    assert "without a run or a sweep" in cite(tmp_path)
+    assert 'did you mean "hertz-sphere"?' in cite("hertz-sphre")
+    assert "did you mean" not in cite("nothere")

@@ -7,6 +7,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+import bem
 from bem.laws import Law
 from bem.materials import Body
 from bem.scenes.build import bodies_of, traction_couples
@@ -29,6 +30,9 @@ _FILM_DEFECT = {"kingsbury1958": "defects of the boundary film"}
 _GENERATED = {"hu1992": "generated roughness"}
 _MOMENTS = {"schreiber1996": "skewness and kurtosis of roughness"}
 _DESPIKED = {"hampel1974": "outliers of measured roughness"}
+_SEAMS_CLOSED = {"moisan2011": "measured roughness made periodic"}
+PROGRAM = "bem2026"
+"""Key of this program in `bem.references`."""
 _ROUGH_CONTACT = {
     "nayak1971": "asperities of rough surfaces",
     "greenwood1966": "plasticity index by asperities",
@@ -55,6 +59,9 @@ def sources_of(scene: SceneModel) -> dict[str, list[str]]:
 
 
 def _all_sources(scene: SceneModel) -> Iterator[tuple[str, str]]:
+    yield PROGRAM, f"this program, version {bem.__version__}"
+    if _closes_seams(scene):
+        yield from _SEAMS_CLOSED.items()
     yield from sources_of_kind(str(getattr(scene, "kind", ""))).items()
     if getattr(scene, "kind", "") == "contact" and any(isinstance(item, _ROUGH) for item in _inside(scene)):
         yield from _ROUGH_CONTACT.items()
@@ -107,6 +114,20 @@ def catalogue_sources(scene: SceneModel) -> dict[str, str]:
 def _models(scene: SceneModel) -> tuple[str, ...]:
     """Return the contact models that a scene of mixed friction compares."""
     return tuple(getattr(getattr(scene, "sharing", None), "models", None) or ())
+
+
+def _closes_seams(scene: SceneModel) -> bool:
+    """Return True if a measured surface of a scene is on a periodic axis along which it is not mirrored."""
+    periodic = getattr(getattr(scene, "grid", None), "periodic", None)
+    if periodic is None:
+        periodic = (False, hasattr(scene, "domain"))  # of a cylinder, which goes on along its axis
+    pairs = periodic if isinstance(periodic, list | tuple) else (periodic, periodic)
+    mirrors = [
+        (item.mirror in ("x", "both"), item.mirror in ("y", "both"))
+        for item in _inside(scene)
+        if isinstance(item, MeasuredSurface)
+    ]
+    return any(wraps and not on for axes in mirrors for wraps, on in zip(pairs, axes, strict=True))
 
 
 def _friction_moves_the_gap(scene: SceneModel) -> bool:

@@ -33,7 +33,7 @@ def register(app: typer.Typer) -> None:
 
         found, constants = _of_element(scene)
         if not found:
-            planned = plan_scene(scene)[0]
+            planned = plan_scene(_scene_of(scene))[0]
             found, constants = sources_of(planned), catalogue_sources(planned)
         known = references()
         keys = sorted(found, key=lambda key: known[key].text)
@@ -47,6 +47,42 @@ def register(app: typer.Typer) -> None:
             print(known[key].bibtex)
 
 
+_SURELY_MEANT = 0.8
+"""Likeness of a word to the name of a scene above which it is proposed."""
+
+
+def _scene_of(name: str) -> str:
+    """Return the scene of a run, a file or a name; of a sweep that of its first point, whose methods all points have.
+
+    Raises
+    ------
+    InputError : a file of a run in place of its folder; a name that is no scene.
+    """
+    from difflib import get_close_matches
+    from pathlib import Path
+
+    from bem.errors import InputError
+    from bem.scenes.load import library
+
+    path = Path(name)
+    if path.is_dir() and not (path / "scene.toml").is_file():
+        points = sorted(path.glob("points/*/scene.toml"))
+        if not points:
+            raise InputError(f"{name}: a folder without a run or a sweep; allowed: the folder of a run or a sweep")
+        return str(points[0])
+    if path.is_file() and path.suffix != ".toml":
+        folder = path.parent
+        run = f"the folder of the run, {folder}" if (folder / "scene.toml").is_file() else "the folder of a run"
+        raise InputError(f"{name}: not a scene; allowed: {run}, or the file of a scene")
+    if not path.exists() and len(path.parts) == 1 and name not in library():
+        close = get_close_matches(name, library(), n=1, cutoff=_SURELY_MEANT)
+        meant = f' - did you mean "{close[0]}"?' if close else "."
+        raise InputError(
+            f'"{name}": no such file, run folder or built-in scene{meant} `bem scenes` lists the built-in scenes.'
+        )
+    return name
+
+
 def _of_element(name: str) -> tuple[dict[str, list[str]], dict[str, str]]:
     """Return the sources of a machine element's file and of the film of its most loaded contact, and those of their
     constants; none of others."""
@@ -56,7 +92,8 @@ def _of_element(name: str) -> tuple[dict[str, list[str]], dict[str, str]]:
         return {}, {}
     from contextlib import suppress
 
-    from bem.campaigns.cited import catalogue_sources, sources_of
+    import bem
+    from bem.campaigns.cited import PROGRAM, catalogue_sources, sources_of
     from bem.elements.element import load_element, read_element
     from bem.elements.running import operating_places
     from bem.elements.sources import sources_of_element
@@ -68,9 +105,10 @@ def _of_element(name: str) -> tuple[dict[str, list[str]], dict[str, str]]:
         return {}, {}
     element = load_element(table)
     found, constants = sources_of_element(element), {}
+    found = {**found, PROGRAM: [f"this program, version {bem.__version__}"]}
     with suppress(InputError):
         film = load_scene(element.scene(operating_places(element)[0], "traction"))
         constants = catalogue_sources(film)
         for key, methods in sources_of(film).items():
-            found[key] = [*found.get(key, []), *methods]
+            found[key] = list(dict.fromkeys([*found.get(key, []), *methods]))
     return found, constants
