@@ -72,8 +72,9 @@ def fit_load_share(lambda_ratio: ArrayLike, contact_share: ArrayLike) -> LoadSha
     apart = inside.any() and np.ptp(np.log(ratio[inside])) > _APART
     if ratio.size < LEAST_POINTS or not apart:
         raise InputError(
-            f"fit_load_share: {ratio.size} points, {int(inside.sum())} of them mixed; allowed: {LEAST_POINTS} or more, "
-            "two or more where film and contact both carry, at lambda ratios more than 1 % apart"
+            f"no fit of the load share to {ratio.size} point{'s' * (ratio.size != 1)}, {int(inside.sum())} of them "
+            f"mixed; allowed: {LEAST_POINTS} or more (speeds or runs), two or more where film and contact both carry, "
+            "at lambda ratios more than 1 % apart"
         )
     slope, line = np.polyfit(np.log(ratio[inside]), np.log(-np.log(share[inside])), 1)
     found = np.array([line, max(slope, 0.05)])

@@ -216,7 +216,7 @@ def _plan_points(
     """The scene itself, as it was given, and the resolved ones of all points with their plans; mistakes of all points
     at once."""
     table = read_table(source, settings)
-    base = scene_from_table(table)  # a mistake of the scene itself is said once, not for every point
+    base = _scene_itself(table, over)
     if base.description:  # of the points: sorted keys without values, so that a resumed sweep finds its points
         table = {**table, "description": changed_description(base.description, sorted(over))}
     planned: list[tuple[SceneModel, Plan]] = []
@@ -230,6 +230,25 @@ def _plan_points(
             gather(mistakes, words_at(over, values), error)
     refuse(mistakes)
     return base, planned
+
+
+def _scene_itself(table: Mapping[str, Any], over: Mapping[str, Sequence[str]]) -> SceneModel:
+    """The scene as it was given; at the first swept values, where it is none without them.
+
+    Raises
+    ------
+    InputError : a mistake of the scene itself, once and not for every point.
+    """
+    try:
+        return scene_from_table(table)
+    except InputError:
+        try:
+            (first,) = scenes_at(table, {key: values[:1] for key, values in over.items()})
+        except InputError:
+            first = None
+        if first is None:
+            raise
+        return first
 
 
 def _take(folder: Path, definition: Mapping[str, Any], resume: bool) -> None:

@@ -153,6 +153,7 @@ def _resampled(found: Surface, grid: Grid, centre: tuple[float, float], name: st
         return resample(found, grid, centre=centre)
     except InputError as error:
         said = [
-            text.removeprefix("resample: ").replace("mirror_to_periodic first", "mirror") for text in error.messages
+            text.removeprefix("resample: ").replace("mirror_to_periodic first", 'mirror = "both" in its surface')
+            for text in error.messages
         ]
         raise InputError([f"{name}: {text}" for text in said]) from None

@@ -11,6 +11,7 @@ import scipy.fft as fft
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
+from bem.quantities import si
 from bem.surfaces.surface import Surface, check_map
 
 DETRENDINGS = ("plane", "curvature", "none")
@@ -230,13 +231,14 @@ def resample(
         half = 0.5 * surface.lengths[axis]
         reach = 0.5 * grid.lengths[axis] + abs(centre[axis])
         if not reach <= half * (1 + 1e-9):
+            middle = f" around {si(centre[axis], 'm', 6)}" if centre[axis] else ""
             messages.append(
-                f"resample: the grid is {grid.lengths[axis]:.4g} m long along {name} around {centre[axis]:.4g} m, the "
-                f"map only {surface.lengths[axis]:.4g} m; use a smaller grid, or mirror_to_periodic first"
+                f"the grid is {si(grid.lengths[axis], 'm', 6)} long along {name}{middle}, the map only "
+                f"{si(surface.lengths[axis], 'm', 6)}"
             )
         targets.append((grid.x if axis == 0 else grid.y) + centre[axis])
     if messages:
-        raise InputError(messages)
+        raise InputError(f"resample: {'; '.join(messages)}; use a smaller grid, or mirror_to_periodic first")
     heights = surface.heights
     offset = float(heights.mean())
     heights = heights - offset

@@ -399,7 +399,7 @@ def _check_header(file: Path, name: str, stream: IO[bytes], size: int | None = N
 
 def _read_table(file: Path) -> FloatArray:
     """A table of numbers, a row a line; memory beyond the numbers is that of one block of a line."""
-    values, rows, width, separator = array("d"), 0, None, None
+    values, rows, width, separator, line = array("d"), 0, None, None, ""
     try:
         with file.open(encoding="utf-8-sig") as stream:
             for line in stream:
@@ -421,6 +421,11 @@ def _read_table(file: Path) -> FloatArray:
     except SurfaceFileError:
         raise
     except (OSError, ValueError) as problem:
+        if isinstance(problem, ValueError) and _has_decimal_commas(line):
+            raise SurfaceFileError(
+                f"{file}: its numbers have decimal commas; write decimal points, with columns parted by spaces, tabs "
+                "or semicolons"
+            ) from problem
         raise _unreadable(file, problem) from problem
     if width is None:
         raise SurfaceFileError(f"{file}: holds no numbers")
@@ -431,6 +436,15 @@ def _read_table(file: Path) -> FloatArray:
             "one line for each x"
         )
     return table
+
+
+def _has_decimal_commas(line: str) -> bool:
+    """Return True if the words of a line, parted by spaces, tabs or semicolons, are numbers with decimal commas."""
+    words = re.split(r"[\s;]+", line[:_HEAD].strip(" \t\r\n;"))
+    words = words[:-1] if len(line) > _HEAD else words  # may be cut
+    return any("," in word for word in words) and all(
+        word.count(",") <= 1 and _is_number(word.replace(",", ".").encode()) for word in words
+    )
 
 
 def _blocks_of_words(line: str, separator: str | None) -> Iterator[list[str]]:

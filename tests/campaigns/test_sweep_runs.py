@@ -549,3 +549,15 @@ def test_notes_of_one_code_are_told_once_with_those_of_the_first_point():
     assert FILM_MOLECULAR(limit=1e-9) in told.notes[1]
     assert [text.split(": ")[1] for text in told.notes[3:5]] == ["load 2 N", "load 20 mN"]
     assert told.notes[5:] == ["1 remark in the summary.json of points"]
+
+
+def test_a_scene_that_the_swept_key_completes_is_checked_with_its_values():
+    """Without a load the ball on a flat is no scene; other mistakes are said as ever."""
+    from bem.runs.sweep import _plan_points
+
+    over = {"contact.load": ["1 N", "2 N"]}
+    base, planned = _plan_points("hertz-sphere", over, ["contact.load="])
+    assert base.contact.load == pytest.approx(1.0, rel=1e-12, abs=0)
+    assert [scene.contact.load for scene, _ in planned] == pytest.approx([1.0, 2.0], rel=1e-12, abs=0)
+    with pytest.raises(InputError, match="friction"):
+        _plan_points("hertz-sphere", over, ["contact.load=", "contact.friction=-1"])

@@ -856,8 +856,11 @@ def test_every_check_has_its_two_tests():
 
 @pytest.mark.internal
 def test_a_map_smaller_than_the_grid_is_refused_by_the_plan(maps):
-    with pytest.raises(InputError, match="the map only"):
+    with pytest.raises(InputError) as refused:  # of the half that is mirrored
         scene_warnings(facts_of(on_map(maps / "whole.npz", "1 mm")))
+    (message,) = refused.value.messages
+    assert "the grid is 500 um long along x, the map only 64 um; " in message
+    assert 'mirror = "both" in its surface' in message
 
 
 @pytest.mark.internal

@@ -157,3 +157,11 @@ def test_a_scale_is_for_the_maps_that_do_not_say_it(call, table):
     heights = json.loads(out)["parameters"]["Sq"]["values"]
     assert heights[0] == pytest.approx(1e-7, rel=0.05, abs=0)
     assert heights[1] == pytest.approx(read_surface("example/ground-disk.al3d").heights.std(), rel=1e-9, abs=0)
+
+
+@pytest.mark.parametrize("separator", [" ", ";", "\t"])
+def test_decimal_commas_are_named(call, table, separator):
+    table.write_text(table.read_text().replace(".", ",").replace(" ", separator))
+    code, _, err = call("surface", "describe", table, "--spacing", "1 um", "--height-unit", "nm")
+    assert code == 2
+    assert "its numbers have decimal commas; write decimal points" in err
