@@ -29,6 +29,8 @@ _HERE = Path(__file__).resolve().parent
 _PACKAGE = __name__.partition(".")[0] + "."
 SECONDS = 40.0
 """Approximate time to compile the loops of a contact on two cores [s]."""
+WEAR_SECONDS = 65.0
+"""Approximate processor time to compile the loops of film, stresses and particles of a running-in beside those [s]."""
 
 
 def compiled(function: Any) -> Any:
@@ -127,16 +129,20 @@ def _source(file: str) -> bytes:
     return Path(file).read_bytes()
 
 
-def is_cold() -> bool:
-    """Return whether the next run has to compile: no compiled loop of the transforms is newer than its source."""
+def is_cold(module: str = "transforms.loops") -> bool:
+    """Return whether the next run has to compile: no compiled loop of a module is newer than its source.
+
+    module : whose loops are looked for, by its name within the package; that of the transforms, which every contact
+        needs, by default.
+    """
     if os.environ.get("NUMBA_DISABLE_JIT", "0") != "0":
         return False
     folder, version = cache_folder(), f"py{sys.version_info[0]}{sys.version_info[1]}"
     if folder is None:
         return True
     try:
-        changed = (_HERE / "transforms" / "loops.py").stat().st_mtime
-        indices = folder.glob(f"{_PACKAGE}transforms.loops-*/*/loops.*.{version}*.nbi")
+        changed = _HERE.joinpath(*module.split(".")).with_suffix(".py").stat().st_mtime
+        indices = folder.glob(f"{_PACKAGE}{module}-*/*/{module.rpartition('.')[2]}.*.{version}*.nbi")
         return not any(index.stat().st_mtime >= changed for index in indices)
     except OSError:
         return True

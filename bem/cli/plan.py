@@ -26,7 +26,8 @@ def register(app: typer.Typer) -> None:
           bem plan rough-contact --set grid.shape=8192
         """
         from bem.cli._terminal import print_text, show_warnings
-        from bem.compiled import SECONDS, is_cold
+        from bem.cli.run import running_in_is_cold
+        from bem.compiled import SECONDS, WEAR_SECONDS, is_cold
         from bem.runs import plan_scene
         from bem.scenes.checks import examine, scene_warnings
         from bem.scenes.planner import available_memory, show_bytes
@@ -40,9 +41,10 @@ def register(app: typer.Typer) -> None:
         _show_contacts(facts)
         _show_steps(planned)
         show_warnings(warnings, remarks="in the report of the run")
-        if is_cold():
+        seconds = SECONDS * is_cold() + WEAR_SECONDS * running_in_is_cold(resolved)
+        if seconds > 0:
             print_text(
-                f"not compiled yet: the first run takes about {SECONDS:.0f} s longer (`bem warm-up` does it now)"
+                f"not compiled yet: the first run takes about {seconds:.0f} s longer (`bem warm-up` does it now)"
             )
         free = available_memory()
         if planned.memory > free:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -68,6 +68,21 @@ def asked(accuracy: list[str] | None) -> str | dict[str, str | float] | None:
     return str(table["all"]) if list(table) == ["all"] else table or None
 
 
+_RUNNING_IN = {"point": "lubrication.point.reynolds", "line": "lubrication.line.linear", "wear": "wear.segmentation"}
+"""Modules whose loops every lubricated wear loop with particles needs beside those of a contact: of the film of a ball
+or of a cylinder, and of the particles."""
+
+
+def running_in_is_cold(scene: Any) -> bool:
+    """Return whether a scene is one of a running-in whose loops beside those of a contact have to be compiled."""
+    from bem.compiled import is_cold
+
+    if scene.kind != "running-in":
+        return False
+    film = _RUNNING_IN["line" if scene.contact.point_radii is None else "point"]
+    return is_cold(film) or (scene.wear.finds_particles.needs_strength and is_cold(_RUNNING_IN["wear"]))
+
+
 def prepare_first_run(scene: str, settings: Sequence[str], accuracy: str | dict[str, str | float] | None) -> None:
     """Compile what a contact needs on all cores where nothing is compiled yet; of other kinds say that it takes time.
 
@@ -77,15 +92,16 @@ def prepare_first_run(scene: str, settings: Sequence[str], accuracy: str | dict[
     """
     from bem.compiled import is_cold
 
-    if not is_cold():
+    cold = is_cold()
+    if not cold and not any(is_cold(module) for module in _RUNNING_IN.values()):
         return
     from bem.cli.warm_up import compile_with_progress
     from bem.runs import plan_scene
 
     resolved, _ = plan_scene(scene, settings, accuracy)
-    if resolved.kind == "contact":
+    if cold and resolved.kind == "contact":
         compile_with_progress(main=True)
-    else:
+    elif cold or running_in_is_cold(resolved):
         typer.echo("bem: compiling loops, once for this installation (`bem warm-up` compiles all of them)", err=True)
 
 

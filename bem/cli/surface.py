@@ -383,7 +383,7 @@ def _functional_rows(surface: Surface) -> list[tuple[str, str]]:
         rows.append(("bandwidth, Nayak's alpha", f"{asperities.bandwidth:.4g}"))
     fit = self_affine_fit_of_map(surface.heights, surface.spacing, periodic=periodic_axes(surface))
     if fit is not None:
-        decades = f"{fit.misfit:.2f} decades off at rms"
+        decades = f"rms misfit {fit.misfit:.2f} decades"
         between = f"{si(fit.shortest_wavelength, 'm', digits=3)} to {si(fit.longest_wavelength, 'm', digits=3)}"
         if 0 < fit.hurst < 1:
             rows.append(("Hurst exponent", f"{fit.hurst:.2f} ± {fit.hurst_error:.2f} ({between}; {decades})"))

@@ -54,7 +54,7 @@ class NoBar(StrEnum):
 NO_ERROR_BAR = define(
     "no-error-bar",
     INFO,
-    "No error bars of {figures:few}.",
+    "No error bars for {figures:few}.",
     reasons={
         NoBar.COARSER_UNSOLVED: "The coarser solution to compare with did not converge.",
         NoBar.TOO_SMALL: "The grid is too small to be compared with one of twice the cell; take more cells.",

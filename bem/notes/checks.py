@@ -487,12 +487,12 @@ WEAR_STEPS_LONG = define(
         "overshoot": Reason(
             "Each cycle removes too much: {ratio:.2g} times the depth per pressure by which the bodies give way from"
             " cell to cell, where less than 2 is needed. Depths, roughness and contact are those of the steps.",
-            "Take {share:.2g} times the wear.criterion.distance, in more cycles.count.",
+            "Take {share:.2g} times the wear.criterion.distance, and raise cycles.count.",
             OUTSIDE_MODEL,
         ),
         "error": Reason(
             "They leave up to {step:si m} open of a mean depth of {depth:si m}{of}.",
-            "Take a shorter wear.criterion.distance, and as many more cycles.count.",
+            "Take a shorter wear.criterion.distance, and raise cycles.count as much.",
         ),
     },
 )

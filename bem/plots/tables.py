@@ -51,6 +51,9 @@ _LABELS = {
     "Sq_initial": "Sq of the contact region, initial",
     "Sq_final": "Sq of the contact region, final",
     "worn_depth": "worn depth of the contact region",
+    "particles_per_cycle": "particles per cycle of one body",
+    "particles_first_cycle": "particles in the first cycle, of one body",
+    "particles_last_cycles": "particles in all of the last cycles, of one body",
     "criterion_wear_rate": "wear volume over load and sliding distance",
     "lower_Sq": "Sq of the lower surface",
     "upper_Sq": "Sq of the upper surface",
@@ -104,10 +107,12 @@ def within(name: str, value: float, error: float, factor: float = 1.0) -> str:
     """An error as it stands behind a value: `± 0.2`, or, where that would leave what the figure can be, the interval
     that is left: `(0 to 1.3)`, of what has no sign, and `(0.7 to 1)`, of a share of a whole. The error itself, beside
     the figure in summary and dataset, is that of either side. An interval whose ends agree to four digits is left out:
-    "" of full contact.
+    "" of full contact. So is an error that is none beside the value, as of a load that is given.
 
     factor : of the unit that is shown.
     """
+    if error < _LEAST_ERROR * abs(value):
+        return ""
     words = name_and_unit(name)[0].lower().split(" ")
     is_share = any(word in _SHARES for word in words)
     signed = "xy" in words  # flow across what drives it
@@ -123,6 +128,8 @@ def within(name: str, value: float, error: float, factor: float = 1.0) -> str:
     return ""
 
 
+_LEAST_ERROR = 1e-8
+"""Error over the value below which it is left out: a given load is met to the rounding of a sum over the cells."""
 _LEAST_SCATTER = 1e-6
 """Scatter of a friction coefficient below which it is left out: the friction is that of the boundary, an input."""
 

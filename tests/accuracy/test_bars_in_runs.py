@@ -201,7 +201,7 @@ def test_scattering_figures_are_figures_that_have_none_of_the_meshs(record):
 def test_the_run_says_which_figures_follow_the_mesh_and_what_its_bars_are(tmp_path):
     run = run_scene({**WEAR, "repetitions": 2}, tmp_path / "run", figures=True)
     notes = " ".join(note["text"] for note in run.summary["notes"])
-    assert "No error bars of" in notes
+    assert "No error bars for" in notes
     assert "follows the mesh" in notes
     assert "over 2 repetitions alone" in notes
     assert run.summary["number_mean_equivalent_radius_nm_error"] is None

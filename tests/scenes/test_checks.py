@@ -538,7 +538,7 @@ OUTCOMES = {
     ),
     "contact_at_the_cap": (
         with_(BALL, contact__behaviour="capped"),
-        (contact_outcome(spot(7e9)), "100 % of the cells in contact, with 100 % of the load"),
+        (contact_outcome(spot(7e9)), "100 % of the cells in contact, which carry 100 % of the load, are at"),
         contact_outcome(spot(6.9e9)),
     ),
     "cap_within_the_error_of_the_pressure": (

@@ -60,7 +60,7 @@ def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     still, (cells, cap, _) = _drifting(facts, outcome), at_the_cap(facts, outcome)
     follows = [f"it had not settled ({joined(still)})"] if still else []
     if cells:
-        follows.append(f"{cells}, are at the hardness, {si(cap, 'Pa')}")
+        follows.append(f"{cells} are at the hardness, {si(cap, 'Pa')}")
     so = f": so {joined(follows)}" if follows else ""
     yield SURFACE_ROUGHENED(
         of=_of(len(grown), len(before)), before=1e-9 * b, after=1e-9 * a, both=1e-9 * both, holes=holes, so=so

@@ -173,7 +173,7 @@ def at_the_cap(facts: Facts, outcome: Outcome) -> tuple[str, float, float]:
         if touching and np.count_nonzero(capped) > _AT_CAP * touching:
             share = float(plane[capped].sum() / plane.sum())
             cells = f"{percent(np.count_nonzero(capped) / touching)} of the cells in contact"
-            return f"{cells}, with {percent(share)} of the load", case.cap, share
+            return f"{cells}, which carry {percent(share)} of the load,", case.cap, share
     return "", 0.0, 0.0
 
 
