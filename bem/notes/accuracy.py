@@ -150,4 +150,4 @@ def no_error_bar(names: Iterable[str], reason: NoBar, **values: Any) -> Note:
 
 def named(names: Iterable[str]) -> list[str]:
     """Return the names of figures in words."""
-    return [" ".join(name.split("_")) for name in dict.fromkeys(names)]
+    return [" ".join(name.split("_")).replace("von mises", "von Mises") for name in dict.fromkeys(names)]

@@ -145,9 +145,14 @@ def _is_key(variables: Mapping[str, Variable], name: str, key: str) -> bool:
 def _panel(
     axes: Any, variables: Mapping[str, Variable], name: str, keys: Sequence[str], spacings: Mapping[str, str]
 ) -> None:
-    """One figure over one key; over seeds and repetitions its mean with the range as a band."""
-    variable = variables[name]
+    """One figure over one key with its error bars; over seeds and repetitions its mean with the range as a band."""
+    variable, bars = variables[name], variables.get(f"{name}_error")
     values, dimensions = variable.values, list(variable.dimensions)
+    errors = (
+        bars.values
+        if bars is not None and (bars.dimensions, bars.units) == (variable.dimensions, variable.units)
+        else None
+    )
     low = high = values
     for chance in (name for name in _CHANCE if name in dimensions and len(dimensions) > 1):
         axis = dimensions.index(chance)
@@ -158,6 +163,7 @@ def _panel(
             values = np.where(count > 0, np.nansum(values, axis) / np.maximum(count, 1), np.nan)
         low, high = (np.where(np.isfinite(item), item, np.nan) for item in (low, high))
         dimensions.remove(chance)
+        errors = None  # the band is drawn in their place
     along = _axis(variables, dimensions, keys)
     position, ticks, words, unit = _positions(variables.get(along), values.shape[dimensions.index(along)], along)
     factor, shown = prefix(values, variable.units if variable.units != "1" else "")
@@ -180,6 +186,9 @@ def _panel(
             markersize=3.5,
             label=text or name,
         )
+        if errors is not None and errors.dtype.kind == "f" and np.isfinite(errors[line]).any():
+            bar = np.where(np.isfinite(errors[line]), errors[line], 0.0) * factor
+            axes.errorbar(position, values[line] * factor, bar, fmt="none", ecolor=drawn[0].get_color(), elinewidth=0.9)
         if low is not variable.values:
             axes.fill_between(
                 position, low[line] * factor, high[line] * factor, alpha=0.15, color=drawn[0].get_color(), linewidth=0

@@ -178,6 +178,20 @@ def test_panels_over_keys_name_each_unit_once():
     assert figure.axes[0].get_ylabel() == "central film thickness (nm)"
 
 
+def test_panels_over_keys_have_the_error_bars_of_their_points():
+    """They were in the table of the sweep and not in its picture; a point without one is drawn bare."""
+    films = Variable(("speed",), np.array([1e-7, 2e-7, 3e-7]), "m", "film")
+    errors = films.with_values(np.array([1e-9, np.nan, 3e-9]), "m")
+    speeds = Variable(("speed",), np.array([0.1, 0.2, 0.3]), "m/s", "speed")
+    figure = Figure()
+    variables = {"film": films, "film_error": errors, "speed": speeds}
+    fill(figure, variables, {"speed": "list"}, ("film",))
+    (axes,) = figure.axes
+    ((_, _, (bars,)),) = axes.containers
+    lengths = [float(np.ptp(segment[:, 1])) for segment in bars.get_segments()]
+    assert lengths == pytest.approx([2.0, 0.0, 6.0])  # nm, on both sides
+
+
 def test_seeds_are_points_at_whole_numbers():
     """A line led from seed to seed, over ticks at 1.5."""
     found = Variable(("seed",), np.array([1e-7, 3e-7, 2e-7]), "m", "approach")
