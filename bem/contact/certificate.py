@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import reductions
-from bem.contact.contact_area import Region, contact_region, plastic_region
+from bem.contact.contact_area import Region, contact_region, least_area, plastic_region
 from bem.contact.grid_workspace import GridResult, is_flat
 from bem.contact.peak_pressure import highest_pressure
 from bem.contact.problem import Request, Units
@@ -154,6 +154,8 @@ def regions_of(
     """
     grid = operator.grid
     contact = contact_region(pressure, deformed, undeformed, grid, modulus, cap=cap, compliance=operator.compliance)
+    if operator.compliance == 0:  # bodies that wear end at kinks, where full cells carry the highest pressure
+        contact = contact.of_area(max(contact.area, least_area(pressure, grid)))
     least = load / cap  # the pressure is nowhere above the cap
     doubt: tuple[Note, ...] = ()
     if contact.elastic_edge_area < _SHORT * least and contact.counted_area > _MANY * least:

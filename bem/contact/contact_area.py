@@ -96,8 +96,7 @@ def contact_region(
     cap: float = math.inf,
     compliance: float = 0.0,
 ) -> Region:
-    """Return the region in contact; of bodies that are not worn at least the area that carries the load at the highest
-    pressure.
+    """Return the region in contact; below a cap, at least the area that carries the load at the cap.
 
     Parameters
     ----------
@@ -123,10 +122,10 @@ def contact_region(
         area = min(max(area, 0.0), grid.area)
     if math.isfinite(cap) and inside.any():
         area = max(area, _capped_area(inside, pressure, cap, crossed, grid))
-    return found.of_area(area if compliance > 0 else max(area, _least_area(pressure, grid)))
+    return found.of_area(area)
 
 
-def _least_area(pressure: FloatArray, grid: Grid) -> float:
+def least_area(pressure: FloatArray, grid: Grid) -> float:
     """Return the area [m^2] over which the mean of the pressures (nx, ny) [Pa] is the highest of them.
 
     The law of the boundary leaves a lone cell a tenth of its area, over which the mean would exceed every pressure.
