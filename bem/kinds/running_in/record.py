@@ -30,7 +30,10 @@ _over, _shown, _line = (partial(Series, ("cycle",)), partial(Series, ("x", "y"),
 SETTLED, RUN_IN = (f"mean over the last cycles.{window} cycles" for window in ("settled", "averaged"))
 """Windows of means: `settled` for particles and worn volume, `averaged` for friction, film and contact. Means are taken
 even if the surface still changes."""
-_STRIP = "in the contact region (Hertz' contact; on a body that moves its whole track)"
+_STRIP = (
+    "of the wearing body, the lower one of two, in the contact region "
+    "(Hertz' contact; on a body that moves its whole track)"
+)
 _FOLLOWS_CELL = f"{pieces.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
 
 

@@ -14,7 +14,10 @@ from bem.scenes.third_bodies import THIRD_BODIES
 
 SETTLED = "mean over the last cycles.settled cycles"
 """Window of means, which are taken even if the surface still changes."""
-_STRIP = "in the contact region (rows in contact in the last cycle; on a body that moves its whole track)"
+_STRIP = (
+    "of the wearing body, the lower one of two, in the contact region "
+    "(rows in contact in the last cycle; on a body that moves its whole track)"
+)
 _over, _map = partial(Series, ("cycle",)), partial(grid_map, of="last")
 
 
