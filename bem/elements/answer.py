@@ -233,7 +233,7 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
     ratio = thinnest.film_ratio
     regime = "full film" if ratio >= 3 else "mixed lubrication" if ratio < 1 else "thin film, highest asperities touch"
     share = max(one.asperity_share or 0.0 for one in runs)
-    touching = f"; asperities carry up to {percent(share)} of the load, an estimate" if share >= 0.01 else ""
+    touching = f"; asperities carry some {percent(share)} of the load, an estimate" if share >= 0.01 else ""
     return f"{ratio:.3g} ({regime}{touching}), {film}"
 
 

@@ -68,8 +68,9 @@ def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[f
         if film.asperity_share < LEAST_SHARE:
             return film.power, f"{coefficient}, of the film"
         return film.power, (
-            f"{coefficient}, an estimate: the share of asperities is by tests of ground steel, their boundary friction "
-            f"{model.boundary_friction:g}; a scene of kind friction computes it"
+            f"{coefficient}, an estimate with a boundary friction of {model.boundary_friction:g}: the share of "
+            "asperities is by tests of ground steel, and may be several times too low for polymers; a scene of kind "
+            "friction computes it"
         )
     dry = "" if model.oil is None else ", as if dry: no film is solved"
     return (
@@ -105,12 +106,15 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
         notes.append(
             BUSH_OVER_LIMIT(value=1e-6 * pv, limit=1e-6 * model.pv_limit, ratio=pv / model.pv_limit, reason="pv")
         )
+    peak, strength = model.conforming.maximum_pressure, model.second.build().yield_stress
+    if strength is not None and peak > strength:
+        notes.append(BUSH_OVER_LIMIT(value=1e-6 * peak, limit=1e-6 * strength, reason="yield"))
     highest = model.service_temperature
     known = film is not None or model.oil is None or model.friction is not None
     temperature = bush_temperature(model, friction_power_of(model, film)[0]) if known else 0.0
     if highest is not None and temperature > highest:
         notes.append(BUSH_OVER_LIMIT(value=temperature - CELSIUS, limit=highest - CELSIUS, reason="temperature"))
-    liquid = None if model.oil is None or film is None else model.oil.temperature
+    liquid = None if model.film_oil is None or film is None else model.film_oil.temperature
     if liquid is not None and temperature > liquid + _WARMER:
         notes.append(BUSH_WARMER_THAN_OIL(bush=temperature - CELSIUS, oil=liquid - CELSIUS))
     if film is not None and film.asperity_share < LEAST_SHARE and model.specific_wear_rate:

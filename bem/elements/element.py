@@ -234,7 +234,8 @@ class Element:
         elif self.model.film_oil is not None and not conducts(self.model):
             notes.append(NO_HEAT(reason="oil"))
         ratios = self.columns().get("film_over_roughness", [])
-        if touching := sum(ratio < 1 for ratio in ratios):
+        touching = sum(ratio < 1 for ratio in ratios)
+        if touching and not isinstance(self.model, PlainBushModel):  # whose solved film tells it
             notes.append(SURFACES_TOUCH(where=f" at {touching} of {len(ratios)} places"))
         return tuple(notes)
 

@@ -110,6 +110,12 @@ BUSH_OVER_LIMIT = define(
             "Lower friction, load or speed, or lead off more heat (heat_balance).",
             headline="The bush becomes too hot.",
         ),
+        "yield": Reason(
+            "The peak pressure is {value:.3g} MPa, the yield stress of the bush {limit:.3g} MPa. Polymers creep far "
+            "below.",
+            "Lower the load, or take a longer or wider bush.",
+            headline="The pressure exceeds the yield stress of the bush.",
+        ),
     },
 )
 BUSH_WARMER_THAN_OIL = define(

@@ -82,7 +82,7 @@ def test_a_lubricated_bush_has_a_film_and_its_friction():
     assert len(runs) == 1
     # the film of soft bodies in a liquid whose viscosity does not rise with pressure
     assert runs[0].minimum_film == pytest.approx(element.columns()["minimum_film [m]"][0], rel=0.05)
-    assert "an estimate: the share of asperities" in said["friction power"]
+    assert "an estimate with a boundary friction" in said["friction power"]
     assert float(said["friction power"].split()[0]) < 0.1 * DRY_FRICTION * 500 * element.model.sliding_speed
     notes = element.notes()
     assert BUSH_CONFORMS.code in codes(notes)
@@ -132,6 +132,13 @@ def test_cases_of_a_bush_have_its_answers():
     wet = columns([load_element(WATER)])
     assert "friction_power [W]" not in wet
     assert wet["film_over_roughness"][0] == pytest.approx(0.84, abs=0.06)
+
+
+def test_a_peak_above_the_yield_stress_is_noted():
+    heavy = load_element(DRY | {"radial_load": "60 kN", "friction": 0.01, "heat_balance": {"conductance": "1 kW/K"}})
+    assert heavy.model.conforming.maximum_pressure > 100e6
+    (note,) = answer_notes(heavy, ())
+    assert note.values["limit"] == pytest.approx(100)
 
 
 def test_wear_under_a_full_film_is_noted():
