@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import reductions
-from bem.contact.contact_area import Region, contact_region, least_area, plastic_region
+from bem.contact.contact_area import Region, contact_region, plastic_region
 from bem.contact.grid_workspace import GridResult, is_flat
 from bem.contact.peak_pressure import highest_pressure
 from bem.contact.problem import Request, Units
@@ -126,9 +126,6 @@ def _approach(request: Request, units: Units, result: GridResult) -> float:
     return approach
 
 
-_UNDETERMINED = 0.5
-"""Estimated area over that which carries the load at the highest pressure below which spots are single cells whose
-area the law of elastic edges does not determine; above, it estimates spots smaller than their cells."""
 _SHORT, _MANY = 0.98, 1.1
 """Fractions of load / cap: if the area with elastic edges is below the first and the area of cells above the second,
 spots are one or two cells wide and the area is uncertain by more than a tenth."""
@@ -157,9 +154,6 @@ def regions_of(
     """
     grid = operator.grid
     contact = contact_region(pressure, deformed, undeformed, grid, modulus, cap=cap, compliance=operator.compliance)
-    carrying = least_area(pressure, grid)
-    if operator.compliance == 0 and contact.area < _UNDETERMINED * carrying:  # worn bodies end at kinks instead
-        contact = contact.of_area(carrying)
     least = load / cap  # the pressure is nowhere above the cap
     doubt: tuple[Note, ...] = ()
     if contact.elastic_edge_area < _SHORT * least and contact.counted_area > _MANY * least:

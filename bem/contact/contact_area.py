@@ -125,15 +125,6 @@ def contact_region(
     return found.of_area(area)
 
 
-def least_area(pressure: FloatArray, grid: Grid) -> float:
-    """Return the area [m^2] over which the mean of the pressures (nx, ny) [Pa] is the highest of them.
-
-    The law of the boundary leaves a lone cell a tenth of its area, over which the mean would exceed every pressure.
-    """
-    highest = float(pressure.max())
-    return float(np.maximum(pressure, 0.0).sum()) / highest * grid.cell_area if highest > 0 else 0.0
-
-
 def _beyond_kinks(inside: NDArray[np.bool_], worn: FloatArray, crossed: Crossed, grid: Grid) -> float:
     """Return the area [m^2] gained where the boundary lies at a kink of the worn gap (nx, ny) [m] instead of the
     crossing."""
