@@ -11,10 +11,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from bem.elements.answer import PLACES, answer, answer_notes, balance_heat
+from bem.elements.answer import PLACES, answer, answer_notes, balance_heat, table_columns
 from bem.elements.element import MODELS, Element, element_template, load_element
 from bem.elements.figure import element_figure
-from bem.elements.running import Running, columns, notes, run_all
+from bem.elements.running import Running, notes, run_all
 from bem.errors import InputError
 from bem.notes import Level
 from bem.scenes.edit import table_text
@@ -136,7 +136,7 @@ def answered(name: str, typed: Mapping[str, str], *, whole: bool = False) -> Ans
     remarks = tuple(str(note) for note in every if note.level is Level.INFO)
     picture = io.BytesIO()
     element_figure(element, runs).savefig(picture, format="png", dpi=120)
-    table = element.csv(columns(element, runs) if runs else {})
+    table = element.csv(table_columns(element, runs))
     return Answered(answer(element, runs), element.found.geometry, cautions, remarks, picture.getvalue(), table)
 
 

@@ -71,10 +71,9 @@ def element(
     """
     from bem.cli._quantity import new_file
     from bem.cli._terminal import print_text, print_written, show_remarks, show_warnings
-    from bem.elements.answer import answer_notes, balance_heat, contact_words
+    from bem.elements.answer import answer_notes, balance_heat, contact_words, table_columns
     from bem.elements.element import MIXED, load_element
     from bem.elements.figure import draw_element
-    from bem.elements.running import columns
     from bem.elements.running import notes as notes_of
     from bem.elements.scene_text import scene_text
     from bem.errors import InputError
@@ -127,7 +126,7 @@ def element(
         write_text(path, rows)
         print_written(path)
     if table is not None:
-        write_text(table, found.csv(columns(found, runs) if runs else {}))
+        write_text(table, found.csv(table_columns(found, runs)))
         print_written(table)
     if figure is not None:
         draw_element(found, runs, figure)
@@ -221,10 +220,10 @@ def _chosen(found: Element, at: str) -> ElementContact:
 def _show(found: Element, chosen: ElementContact, runs: Sequence[Running]) -> None:
     """Show all contacts as a table, with the solved films where there are any."""
     from bem.cli._terminal import print_text, table
-    from bem.elements.running import columns
+    from bem.elements.answer import table_columns
 
     contacts = found.found.contacts
-    mine = found.columns() | (columns(found, runs) if runs else {})
+    mine = found.columns() | table_columns(found, runs)
     mine["entrainment_speed [m/s]"] = [one.mean_speed for one in contacts]
     mine["slide_roll_ratio"] = [one.slide_roll_ratio for one in contacts]
     shown = [key for key in _HEADS if key in mine and not (runs and key in _BY_FORMULA)]
@@ -296,6 +295,8 @@ _HEADS = {
     "friction": "friction coefficient",
     "friction_power [W]": "friction power",
     "oil_temperature [K]": "oil",
+    "friction_power_with_asperities [W]": "friction power with asperities",
+    "bush_temperature [K]": "bush",
     "surface_temperature [K]": "surface",
     "flash_temperature [K]": "flash",
     "wear_per_pass_1 [m]": "wear 1 per pass",

@@ -12,7 +12,14 @@ from dataclasses import dataclass
 from functools import partial
 
 from bem.elements.bearing_life import life_rows
-from bem.elements.bush_answer import FilmOfBush, bush_notes, bush_rows, pressure_words
+from bem.elements.bush_answer import (
+    FilmOfBush,
+    bush_notes,
+    bush_rows,
+    bush_temperature,
+    friction_power_of,
+    pressure_words,
+)
 from bem.elements.cam_follower import CamModel
 from bem.elements.contact import ElementContact
 from bem.elements.element import Element
@@ -21,7 +28,7 @@ from bem.elements.gear_pair import GearModel
 from bem.elements.gear_scuffing import CELSIUS, friction_of_gear_tests, scuffing_of, sliding_power
 from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
-from bem.elements.running import Running, run_all
+from bem.elements.running import Running, columns, run_all
 from bem.notes import Note
 from bem.notes.elements import SURFACES_TOUCH
 from bem.notes.note import percent
@@ -191,6 +198,22 @@ def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...
     touching = any((one.film_ratio or 1.0) < 1 for one in runs)
     notes = bush_notes(element.model, _film_of_bush(element, runs))
     return (*notes, SURFACES_TOUCH(where="")) if touching else notes
+
+
+def table_columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]:
+    """Return the columns of solved films, see `bem.elements.running.columns`; none without films.
+
+    Of a bush the friction power with asperities and the bush's temperature stand beside them. It has no wear per pass:
+    the load stays on one place of the bush.
+    """
+    found = columns(element, runs) if runs else {}
+    if not isinstance(element.model, PlainBushModel):
+        return found
+    found = {name: values for name, values in found.items() if not name.startswith("wear_per_pass")}
+    film = _film_of_bush(element, [one for one in runs if one.converged])
+    power = friction_power_of(element.model, film)[0]
+    temperature = bush_temperature(element.model, power)
+    return found | {"friction_power_with_asperities [W]": [power], "bush_temperature [K]": [temperature]}
 
 
 def place_words(element: Element, one: ElementContact) -> str:

@@ -21,7 +21,7 @@ from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.materials import CATALOGUE, Material
 from bem.notes import Note
-from bem.notes.elements import BUSH_CONFORMS, BUSH_SWINGS
+from bem.notes.elements import BUSH_CONFORMS, BUSH_LEAKS, BUSH_SWINGS
 from bem.scenes.common import MaterialScene, PositiveLength, Table, problem
 from bem.scenes.units import Angle, Dimension, Force, Rate, Ratio, RotationSpeed, Temperature
 
@@ -42,6 +42,9 @@ SERVICE_TEMPERATURES = {
 """Highest temperature of a bush by material of the catalogue [K], with its source."""
 FAR_FROM_CYLINDER = 0.05
 """Deviation of the equivalent cylinder's peak pressure from that of the conforming contact above which it is said."""
+LONG = 5.0
+"""Length over the width of the contact below which leakage at the ends is said: our choice, as no film of finite length
+was solved. What leaks is of the order of the square of width over length."""
 PressureVelocity = Annotated[float, Dimension("W/m^2", "a pressure times a speed", "0.2 MPa*m/s")]
 
 
@@ -190,6 +193,9 @@ class PlainBushModel(ElementModel):
         if self.oil is not None and abs(pressure) > FAR_FROM_CYLINDER:
             angle = math.degrees(self.conforming.half_angle)
             notes.append(BUSH_CONFORMS(angle=angle, pressure=pressure, width=width))
+        slender = self.length / (2 * self.cylinder.half_angle * self.bodies.cylinder.radius)
+        if self.oil is not None and slender < LONG:
+            notes.append(BUSH_LEAKS(ratio=slender))
         if self.oscillation is not None and self.oil is not None:
             notes.append(BUSH_SWINGS())
         return tuple(notes)

@@ -133,3 +133,10 @@ BUSH_WEARS_IN_FILM = define(
     "Asperities have {share:.1%} of the load by estimate.",
     "Take the specific wear rate of starts and stops, or of a test in this lubricant at this lambda ratio.",
 )
+BUSH_LEAKS = define(
+    "bush-leaks",
+    CAUTION,
+    "Oil leaves the bush at its ends, which a line film leaves out.",
+    "The bush is only {ratio:.2g} times as long as the contact is wide.",
+    "Take film and lambda ratio as upper bounds.",
+)

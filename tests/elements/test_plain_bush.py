@@ -11,7 +11,7 @@ from command_line import run_command
 
 from bem import InputError, plan_scene, run_scene
 from bem.contact.conforming import ConformingBodies
-from bem.elements.answer import answer, answer_notes, balance_heat
+from bem.elements.answer import answer, answer_notes, balance_heat, table_columns
 from bem.elements.cases import columns
 from bem.elements.element import element_template, load_element
 from bem.elements.figure import element_figure
@@ -20,6 +20,7 @@ from bem.elements.running import run_all
 from bem.notes.checks import SLOPES_LARGE
 from bem.notes.elements import (
     BUSH_CONFORMS,
+    BUSH_LEAKS,
     BUSH_OVER_LIMIT,
     BUSH_SWINGS,
     BUSH_WARMER_THAN_OIL,
@@ -139,6 +140,26 @@ def test_a_peak_above_the_yield_stress_is_noted():
     assert heavy.model.conforming.maximum_pressure > 100e6
     (note,) = answer_notes(heavy, ())
     assert note.values["limit"] == pytest.approx(100)
+
+
+def test_a_short_bush_leaks():
+    short = load_element(WATER)
+    (note,) = [note for note in short.notes() if note.code == BUSH_LEAKS.code]
+    half_width = short.model.cylinder.half_angle * short.model.bodies.cylinder.radius
+    assert note.values["ratio"] == pytest.approx(0.02 / (2 * half_width))
+    assert BUSH_LEAKS.code not in codes(load_element(WATER | {"length": "50 mm", "radial_load": "100 N"}).notes())
+    assert BUSH_LEAKS.code not in codes(load_element(DRY).notes())
+
+
+def test_the_table_has_the_bush_s_friction_and_no_wear_per_pass():
+    element = load_element(WATER | {"specific_wear_rate": "1e-6 mm^3/(N*m)"})
+    runs = run_all(element)
+    found = table_columns(element, runs)
+    assert not [name for name in found if name.startswith("wear_per_pass")]
+    power = found["friction_power_with_asperities [W]"][0]
+    assert dict(answer(element, runs))["friction power"].startswith(f"{power:.3g} W")
+    assert found["bush_temperature [K]"][0] == pytest.approx(313.15 + power / element.model.conductance)
+    assert found["friction_power [W]"][0] < power
 
 
 def test_wear_under_a_full_film_is_noted():
