@@ -129,7 +129,7 @@ def test_folder_that_cannot_be_written_is_exit_code_4(small, out):
 def test_a_disk_that_fills_is_exit_code_4_one_message_nothing_half_written(small):
     """RLIMIT_FSIZE stands for the full disk; a tmpfs of 32 kB behaves the same."""
     code = (
-        "import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000)); "
+        "import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (22000, 22000)); "
         "sys.argv = ['bem', 'run', 'small.toml', '--out', 'out', '--no-figures']; from bem.cli import main; main()"
     )
     done = subprocess.run(

@@ -67,6 +67,7 @@ def solve_mixed(
     oil_volume: OilVolume | str = OilVolume.LOADED,
     supply: Supply | float | None = None,
     thermal: str = "off",
+    film_modulus: float | None = None,
 ) -> MixedSolution:
     """Return the friction of a rough cylinder, ball or ellipsoid on a flat in mixed lubrication.
 
@@ -119,6 +120,8 @@ def solve_mixed(
         (`bem.friction.contact_heat`), whose temperature laws of boundary friction use. Heat of the contact does not act
         back on film and balance: inlet heating alone thins a film with lumped heat. Far away both bodies have the
         temperature of the oil that arrives. The grid is free along x. "full" takes no supply and no ball.
+    film_modulus : contact modulus of the film and of the Hertz contact [Pa] where it is not that of the bodies, such as
+        of a thin wall in a stiff housing; needs a grid that repeats under the contact, periodic along x and y.
 
     Returns
     -------
@@ -170,6 +173,7 @@ def solve_mixed(
         oil_volume=oil_volume,
         supply=supply,
         thermal=thermal,
+        film_modulus=film_modulus,
     )
     solution = solve_setup(setup, height, speeds, initial)
     return dataclasses.replace(solution, notes=_notes_on_arguments(setup, solution.speeds) + solution.notes)
