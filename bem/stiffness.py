@@ -288,17 +288,22 @@ def _axes(normal: Sequence[float], along_x: Sequence[float] | None) -> tuple[Dir
     ]
     if messages:
         return nothing, nothing, messages
-    up = np.array(normal, dtype=np.float64)
-    up /= np.linalg.norm(up)
+    up = _unit(normal)
     for right in [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)] if along_x is None else [along_x]:
-        flat = np.array(right, dtype=np.float64)
-        flat /= np.linalg.norm(flat)
+        flat = _unit(right)
         flat -= (flat @ up) * up
         length = float(np.linalg.norm(flat))
         if length > 1e-6:
             flat /= length
             return _direction(up), _direction(flat), []
     return nothing, nothing, [f"Stiffness: along_x {tuple(along_x or ())!r} is the normal; give a direction across it"]
+
+
+def _unit(vector: Sequence[float]) -> FloatArray:
+    """Return a vector divided by its length. It is scaled first, as the square of its length may overflow."""
+    scaled = np.array(vector, dtype=np.float64)
+    scaled /= np.abs(scaled).max()
+    return np.asarray(scaled / np.linalg.norm(scaled))
 
 
 def _direction(vector: FloatArray) -> Direction:
