@@ -163,7 +163,7 @@ class TensePoint:
 
     def beyond(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """Raise: without Boussinesq's part taken off the integral does not exist."""
-        raise NotImplementedError
+        raise NotImplementedError("the integral over the rest of the plane diverges; take TenseExcess")
 
 
 class TenseExcess(TensePoint):

@@ -50,7 +50,7 @@ def crystal_hertz(stiffnesses: Sequence[Stiffness], radii: tuple[float, float], 
     sine, cosine = np.sin(angles) ** 2, np.cos(angles) ** 2
 
     def integrals(ratio: float) -> tuple[float, float, float]:
-        """Of g / sqrt(W), g sin^2 / W^(3/2) and g cos^2 / W^(3/2) for a = 1, b = ratio."""
+        """Return the integrals of g / sqrt(W), g sin^2 / W^(3/2) and g cos^2 / W^(3/2) for a = 1, b = ratio."""
         width = sine + ratio**2 * cosine
         return (
             float(np.pi * np.mean(point / np.sqrt(width))),

@@ -159,7 +159,7 @@ class StiffnessScene(Table):
         return self
 
     def build(self, **directions: Any) -> Stiffness:
-        """As `bem.Stiffness`, with the directions of an orientation."""
+        """Return the `bem.Stiffness` of these constants, with the directions of an orientation."""
         return Stiffness(**self.model_dump(), **directions)
 
 
@@ -320,7 +320,7 @@ class MaterialScene(Table):
 
     @property
     def special(self) -> str:
-        """What the material is that only contacts under pressure know; empty for another one."""
+        """Property that only kind contact has, in words ("is a crystal"); empty for a material without such a one."""
         if self.stiffness is not None:
             return "is a crystal"
         return "has surface tension" if self.surface_tension is not None else ""

@@ -69,7 +69,7 @@ class MeasuredMap:
 
 @dataclass(frozen=True)
 class MapScale:
-    """What a file of plain numbers does not say of its map.
+    """Scale of a map whose file has plain numbers, without units.
 
     Attributes
     ----------
@@ -81,7 +81,7 @@ class MapScale:
     height_unit: str | None = None
 
     @property
-    def given(self) -> dict[str, Any]:
+    def read_arguments(self) -> dict[str, Any]:
         """Arguments of `read_surface` that are given."""
         return {name: value for name, value in vars(self).items() if value is not None}
 
@@ -111,7 +111,7 @@ def read_maps(files: Mapping[str, str], folder: Path, scale: MapScale | None = N
         own = _scale_of(body, path, scale)
         unstated = unstated or own is not None
         found[body] = _read(body, path, folder, own or MapScale())
-    if scale.given and not unstated:
+    if scale.read_arguments and not unstated:
         raise InputError(
             "--spacing, --height-unit: the files say both; allowed: for files of plain numbers (in a scene, the keys "
             "spacing and height_unit of a surface replace what its file says)"
@@ -199,7 +199,7 @@ def _read(body: str, path: str, folder: Path, scale: MapScale) -> MeasuredMap:
     from bem.surfaces import read_surface
     from bem.surfaces.filter import MOST_SPIKES, count_spikes
 
-    surface = read_surface(path, detrend="curvature", **scale.given)
+    surface = read_surface(path, detrend="curvature", **scale.read_arguments)
     cells = surface.shape[0] * surface.shape[1]
     missing = float(surface.metadata.get("missing_points", 0) or 0) / cells
     if missing > _MOST_FILLED:
@@ -214,7 +214,7 @@ def _read(body: str, path: str, folder: Path, scale: MapScale) -> MeasuredMap:
     spikes = count_spikes(surface.heights, surface.spacing) / cells
     if 0 < spikes < MOST_SPIKES:
         table["despike"] = 6
-        surface = read_surface(path, detrend="curvature", despike=6, **scale.given)
+        surface = read_surface(path, detrend="curvature", despike=6, **scale.read_arguments)
     return MeasuredMap(surface.shape, surface.spacing, table, float(surface.heights.std()))
 
 

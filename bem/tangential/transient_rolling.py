@@ -210,7 +210,7 @@ class _Step:
 
 @dataclass(frozen=True)
 class _March:
-    """What does not change from step to step.
+    """Constants of a march: operator, friction bound and tolerances, which all steps share.
 
     bound : (nx, ny) [Pa]. under_pressure : (2, nx, ny), in-plane displacement under the pressure [m].
     """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -25,6 +26,46 @@ def _ball(cells: int) -> tuple[Grid, FloatArray, FloatArray, float]:
     r = np.hypot(x[:, None], y)
     pressure = np.sqrt(np.maximum(1 - r * r, 0.0))
     return grid, r, pressure, float(pressure.sum()) * grid.cell_area
+
+
+@dataclass(frozen=True, eq=False)
+class _Cylinder:
+    """Hertz' pressure of a cylinder on a flat of the same steel.
+
+    cells : along the contact. half_width : of the contact. radius : of the cylinder.
+    """
+
+    cells: int
+    half_width: float = 1e-4
+    radius: float = 1e-2
+
+    @property
+    def steel(self) -> Material:
+        return Material("steel", youngs_modulus=2.0, poissons_ratio=0.3)
+
+    @property
+    def bodies(self) -> tuple[Body, Body]:
+        return Body(self.steel), Body(self.steel)
+
+    @property
+    def grid(self) -> Grid:
+        return Grid((self.cells, 1), (2.2 * self.half_width / self.cells, 1e-3), periodic=(False, True))
+
+    @property
+    def x(self) -> FloatArray:
+        return self.grid.x - self.grid.x.mean()
+
+    @property
+    def peak(self) -> float:
+        return self.half_width * self.steel.plane_strain_modulus / (4 * self.radius)
+
+    @property
+    def pressure(self) -> FloatArray:
+        return self.peak * np.sqrt(np.maximum(1 - (self.x / self.half_width) ** 2, 0.0))[:, None]
+
+    @property
+    def load(self) -> float:
+        return float(self.pressure.sum()) * self.grid.cell_area
 
 
 def pushed_ball() -> list[Curve]:
@@ -75,17 +116,13 @@ def twisted_ball() -> list[Curve]:
 
 def rolling_cylinder() -> list[Curve]:
     """At 0.7 of what slides."""
-    cells, half, radius, share = 512, 1e-4, 1e-2, 0.7
-    steel = Material("steel", youngs_modulus=2.0, poissons_ratio=0.3)
-    grid = Grid((cells, 1), (2.2 * half / cells, 1e-3), periodic=(False, True))
-    x = grid.x - grid.x.mean()
-    peak = half * steel.plane_strain_modulus / (4 * radius)
-    pressure = peak * np.sqrt(np.maximum(1 - (x / half) ** 2, 0.0))[:, None]
-    total = float(pressure.sum()) * grid.cell_area
-    exact = RollingCylinder(half, radius, peak, FRICTION)
+    share, contact = 0.7, _Cylinder(512)
+    grid, half, peak = contact.grid, contact.half_width, contact.peak
+    exact = RollingCylinder(half, contact.radius, peak, FRICTION)
     found = solve_rolling(
-        pressure, grid, (Body(steel), Body(steel)), friction=FRICTION, force=(share * FRICTION * total, 0.0)
+        contact.pressure, grid, contact.bodies, friction=FRICTION, force=(share * FRICTION * contact.load, 0.0)
     )
+    x = contact.x
     reason = "233 cells over the half-width, whose edges come and go by cells: 0.1 to 2e-3 from 256 to 1024 cells"
     at = np.column_stack([x / half, 0 * x, 0 * x])
     return [
@@ -119,13 +156,8 @@ def shear_limited_ball() -> list[Curve]:
 
 def rolling_with_falling_friction() -> list[Curve]:
     """Force over load at two creepages, where half of the contact sticks and where all slips; against series."""
-    cells, half, radius, speed = 500, 1e-4, 1e-2, 4.0
-    steel = Material("steel", youngs_modulus=2.0, poissons_ratio=0.3)
-    grid = Grid((cells, 1), (2.2 * half / cells, 1e-3), periodic=(False, True))
-    x = grid.x - grid.x.mean()
-    peak = half * steel.plane_strain_modulus / (4 * radius)
-    pressure = peak * np.sqrt(np.maximum(1 - (x / half) ** 2, 0.0))[:, None]
-    total = float(pressure.sum()) * grid.cell_area
+    speed, contact = 4.0, _Cylinder(500)
+    grid, half, peak, steel = contact.grid, contact.half_width, contact.peak, contact.steel
     law = RationallyFallingFriction(FRICTION, 0.5 * FRICTION, 0.02)
 
     def coefficient(slip: FloatArray) -> FloatArray:
@@ -139,9 +171,9 @@ def rolling_with_falling_friction() -> list[Curve]:
         forces.append(force)
     found = [
         solve_rolling(
-            pressure, grid, (Body(steel), Body(steel)), friction=law, speed=speed, creepage=(creepage, 0.0)
+            contact.pressure, grid, contact.bodies, friction=law, speed=speed, creepage=(creepage, 0.0)
         ).force[0]
-        / total
+        / contact.load
         for creepage in creepages
     ]
     reason = "227 cells over the half-width, whose edges are those of cells; 5e-4 with 400 terms"
@@ -151,16 +183,9 @@ def rolling_with_falling_friction() -> list[Curve]:
 
 def rolling_from_rest() -> list[Curve]:
     """Creepage over distance from Cattaneo's to Carter's traction under a constant force; against series."""
-    cells, half, radius, share = 200, 1e-4, 1e-2, 0.6
-    steel = Material("steel", youngs_modulus=2.0, poissons_ratio=0.3)
-    grid = Grid((cells, 1), (2.2 * half / cells, 1e-3), periodic=(False, True))
-    x = grid.x - grid.x.mean()
-    peak = half * steel.plane_strain_modulus / (4 * radius)
-    pressure = peak * np.sqrt(np.maximum(1 - (x / half) ** 2, 0.0))[:, None]
-    force, bodies = (
-        np.array([share * FRICTION * float(pressure.sum()) * grid.cell_area, 0.0]),
-        (Body(steel), Body(steel)),
-    )
+    share, contact = 0.6, _Cylinder(200)
+    grid, half, peak, steel = contact.grid, contact.half_width, contact.peak, contact.steel
+    force, pressure, bodies = np.array([share * FRICTION * contact.load, 0.0]), contact.pressure, contact.bodies
     pushed = solve_partial_slip(pressure, grid, bodies, friction=FRICTION, force=(float(force[0]), 0.0))
     steps, end = round(3 * half / grid.spacing[0]), 3 * half
     found = solve_transient_rolling(

@@ -189,7 +189,7 @@ def _errors(outcome: Outcome, name: str, loops: int) -> list[float]:
 
 @outcome_check
 def less_than_one_particle(facts: Facts, outcome: Outcome) -> Iterator[Note]:
-    """Beside a law of wear the number is the worn volume over the mean particle's: below one, no particle has left."""
+    """Warn of less than one particle: worn volume over mean particle volume, by a law of wear, is below one."""
     over = outcome.variables.get("particles_over_cycles", outcome.variables.get("particles"))
     if not facts.of_kind("wear", "running-in") or over is None or over.dimensions[-1:] != ("cycle",):
         return
