@@ -395,8 +395,9 @@ def _column(
     values = [None if is_size_of_no_particles(name, value) else value for value in values]
     numbers = [v for v in values if isinstance(v, int | float) and not isinstance(v, bool)]
     factor = 1.0
-    if numbers:
-        factor, unit = prefix(numbers, unit)
+    if numbers:  # of a value that is zero but for rounding, the error has the size
+        errors = spread if bars and isinstance(spread, list) else []
+        factor, unit = prefix([*numbers, *(s for s in errors if isinstance(s, int | float))], unit)
     if words.endswith(" fraction"):
         factor, unit = 100.0, "%"
     cells = [_cell(value, factor) for value in values]

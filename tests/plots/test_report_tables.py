@@ -76,6 +76,14 @@ def test_a_force_has_its_scatter_from_the_oil_in_its_unit():
     assert table.rows[1][1] == "500 ± 20 (numerical), ± 100 (oil)"
 
 
+def test_a_force_that_is_zero_but_for_rounding_has_the_unit_of_its_error():
+    summary = {"speed_m_s": [1.0, 2.0], "force_N": [6e-8, -1e-7], "force_N_error": [0.05, 1.2]}
+    (table, *_) = figure_tables(summary, list(summary))
+    shown = " ".join([*table.head, *(cell for row in table.rows for cell in row)])
+    assert "force (N)" in shown
+    assert "± 1.2" in shown
+
+
 def test_units_of_names_are_those_of_records():
     assert name_and_unit("film_wear_rate_nm_s") == ("film wear rate", "nm/s")
     assert name_and_unit("wear_volume_mm3") == ("wear volume", "mm³")
