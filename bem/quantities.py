@@ -61,6 +61,11 @@ def si(value: float, unit: str, digits: int = 3) -> str:
     return f"{value:.{digits}g} {unit}"
 
 
+def counted(number: int, noun: str) -> str:
+    """Return a number with its noun, which takes an s but for one: "1 point", "2 points"."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
 def with_unit(value: float, unit: str) -> str:
     """Return a value in three digits with its unit, with a prefix where `PREFIXED` has the unit."""
     return si(value, unit) if unit in PREFIXED else f"{value:.3g} {unit}".rstrip()

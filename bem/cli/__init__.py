@@ -50,6 +50,7 @@ ORDER = (
     "calibrate",
     "verify",
     "bench",
+    "warm-up",
 )
 
 

@@ -40,8 +40,8 @@ AccuracyOption = Annotated[
     typer.Option(
         "--accuracy",
         metavar="[FIGURE=]SHARE",
-        help="How exact the answer shall be: 1% for all headline figures, contact_area=0.5% for one; cells, points, "
-        "depths and steps are refined until the error bars say so. May be repeated.",
+        help="Largest relative error of the results: 1% for all headline figures, contact_area=0.5% for one; cells, "
+        "points, depths and steps are refined until the error bars say so. May be repeated.",
     ),
 ]
 

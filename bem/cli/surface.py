@@ -337,6 +337,7 @@ def _show(surface: Surface, name: str) -> None:
 
 def _hints(surface: Surface, name: str = "") -> None:
     """Print what an expert would doubt of a map; `name` : of its file, where there are several."""
+    from bem.quantities import counted
     from bem.surfaces.filter import MOST_SPIKES, count_spikes
 
     of = f"{name}: " if name else ""
@@ -349,7 +350,7 @@ def _hints(surface: Surface, name: str = "") -> None:
     spikes = 0 if surface.metadata.get("spikes") else count_spikes(surface.heights, surface.spacing)
     if 0 < spikes < MOST_SPIKES * surface.heights.size:
         print(
-            f"{of}{spikes} points stand out of their neighbourhood by more than 6 standard deviations: spikes of the "
+            f"{of}{counted(spikes, 'point')} more than 6 standard deviations off the neighbours: spikes of the "
             "instrument? --despike 6 removes them."
         )
 

@@ -12,14 +12,19 @@ import typer
 def register(app: typer.Typer) -> None:
     """Add the command."""
 
-    @app.command("warm-up", hidden=True)
+    @app.command("warm-up", short_help="Compile all loops now, so that no later run waits for them.")
     def warm_up(
         main: Annotated[bool, typer.Option("--main", help="Only what `bem run rough-contact` needs.")] = False,
         record: Annotated[
             Path | None, typer.Option(metavar="FILE", help="Write the signatures that small scenes compile instead.")
         ] = None,
     ) -> None:
-        """Compile every loop now instead of in the first run; `make setup` does."""
+        """Compile every loop now instead of in the first run; `make setup` does.
+
+        \b
+        Examples:
+          bem warm-up
+        """
         from bem.cli._streams import results_saved
 
         results_saved()

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, NamedTuple
 
-from bem.quantities import si
+from bem.quantities import counted, si
 
 OUTSIDE = "outside the model: "
 """Words before the headline of a note of level `OUTSIDE_MODEL`, in every view."""
@@ -64,6 +64,7 @@ class _Formatter(string.Formatter):
     """Format specifications beside Python's, for values, spans and lists.
 
     `si UNIT` : prefixes from nano to giga. `%` : a share of one. `few` : the first words of a long list.
+    `count NOUN` : a whole number with its noun, as "1 point" or "2 points".
     """
 
     def format_field(self, value: Any, format_spec: str) -> str:
@@ -76,6 +77,8 @@ class _Formatter(string.Formatter):
             return joined([self.format_field(item, "" if format_spec == "few" else format_spec) for item in value])
         if format_spec.startswith("si "):
             return si(float(value), format_spec.removeprefix("si "))
+        if format_spec.startswith("count "):
+            return counted(int(value), format_spec.removeprefix("count "))
         if format_spec == "%":
             return percent(float(value))
         if isinstance(value, float) and not format_spec:

@@ -76,9 +76,9 @@ MAP_ALTERED = define(
     INFO,
     "The measured map was altered.",
     reasons={
-        "missing": Reason("{points} points were missing.", headline=_FILLED),
+        "missing": Reason("The file has no height for {points:count point}.", headline=_FILLED),
         "spikes": Reason(
-            "{points} points were removed as spikes and filled smoothly from their neighbours.",
+            "Despiking took out {points:count point} and filled the gaps smoothly from the neighbours.",
             headline="Spikes of the map were removed.",
         ),
         "much": Reason(
@@ -88,7 +88,7 @@ MAP_ALTERED = define(
             headline="Much of the map was filled smoothly from neighbouring points.",
         ),
         "outliers": Reason(
-            "{points} points stand out of their neighbours by more than 6 standard deviations, and the kurtosis Sku is "
+            "It has {points:count point} more than 6 standard deviations off their neighbours and a kurtosis Sku of "
             "{kurtosis:.3g}: single points carry much of the load.",
             "Set despike = 6 in its surface, if they are spikes of the instrument.",
             CAUTION,

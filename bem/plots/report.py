@@ -98,12 +98,20 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     text, shown = spelled(name, value)
     if is_size_of_no_particles(name, value):
         return text, "-"
+    if name == "max_pressure_Pa" and _reaches_hardness(summary):
+        return text, f"{shown} (the hardness)"
     if not isinstance(error, float) or not isinstance(value, int | float) or isinstance(value, bool) or value == 0:
         none = f"{name}_error" in summary and error is None and value is not None
         return text, f"{shown} (no error bar)" if none else shown
     number, *unit = shown.split(" ")
     factor = float(number) / value if float(number) else 1.0
     return text, " ".join(filter(None, [number, within(name, value, error, factor), *unit]))
+
+
+def _reaches_hardness(summary: Mapping[str, Any]) -> bool:
+    """Return True if a part of the contact is at the hardness, which then is the maximum pressure."""
+    plastic = _only(summary.get("plastic_area_fraction"))
+    return isinstance(plastic, float) and plastic > 0
 
 
 def _only(value: Any) -> Any:

@@ -15,6 +15,7 @@ from bem.notes import OUTSIDE
 from bem.plots.labels import in_celsius, key_words, largest_of
 from bem.plots.style import label, logarithmic_axis, prefix, said_above, style
 from bem.plots.tables import name_and_unit
+from bem.quantities import counted
 from bem.scenes.context import Variable
 
 _MOST_PANELS, _MOST_LINES = 4, 8
@@ -65,7 +66,7 @@ def say_beyond(figure: Any, variables: Mapping[str, Variable]) -> None:
     """Write the count of points that are solved but outside their model; the table has the reasons."""
     beyond = variables.get("outside_model")
     if beyond is not None and (points := int(np.count_nonzero(beyond.values != ""))):
-        said_above(figure, f"{OUTSIDE}{points} of {beyond.values.size} points, see the column outside_model")
+        said_above(figure, f"{OUTSIDE}{points} of {counted(beyond.values.size, 'point')}, see the column outside_model")
 
 
 def fill(figure: Any, variables: Mapping[str, Variable], spacings: Mapping[str, str], headline: Sequence[str]) -> None:

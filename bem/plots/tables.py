@@ -128,8 +128,8 @@ def within(name: str, value: float, error: float, factor: float = 1.0) -> str:
     return ""
 
 
-_LEAST_ERROR = 1e-8
-"""Error over the value below which it is left out: a given load is met to the rounding of a sum over the cells."""
+_LEAST_ERROR = 1e-6
+"""Error over the value below which it is left out: values show four digits, and a given load is met to the residual."""
 _LEAST_SCATTER = 1e-6
 """Scatter of a friction coefficient below which it is left out: the friction is that of the boundary, an input."""
 

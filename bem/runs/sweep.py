@@ -22,11 +22,12 @@ from bem.notes import Level, of_summary
 from bem.notes.note import PLAIN
 from bem.plots.draw import load_what_draws
 from bem.plots.tables import summary_of_points
+from bem.quantities import counted
 from bem.results import RunDirectory
 from bem.results.atomic import force_names, reason, write_text
 from bem.results.dataset import read_dataset, write_variables
 from bem.results.differing import words_of_difference
-from bem.results.directory import SCENE
+from bem.results.directory import SCENE, SUMMARY
 from bem.runs.point import Point, finished_summary, store
 from bem.runs.scene import check_out, check_workers, plan_scene
 from bem.runs.table import dataset_variables, table_text
@@ -169,7 +170,7 @@ def run_sweep(
         computed, failed = _compute(missing, labels, len(summaries), staff, watcher or Silent())
         summaries |= computed
         in_order = [summaries[name] for name in names]
-        _tell_notes(in_order, labels, watcher or Silent())
+        _tell_notes(in_order, labels, [folder / name / SUMMARY for name in names], watcher or Silent())
         variables = _collect(folder, scenes[0], axes, in_order)
         write_text(folder / TABLE, table_text(axes, in_order, names, failed))
         drawn: list[Path] = []
@@ -187,9 +188,14 @@ def run_sweep(
     return FinishedSweep(folder, len(missing) - len(failed), failed, tuple(stuck), shown, tuple(drawn))
 
 
-def _tell_notes(summaries: Sequence[Mapping[str, Any] | None], labels: Sequence[str], watcher: Watcher) -> None:
+def _tell_notes(
+    summaries: Sequence[Mapping[str, Any] | None], labels: Sequence[str], files: Sequence[Path], watcher: Watcher
+) -> None:
     """Tell the notes of the points' summaries, those of one code and place once: the most serious ones first, then the
-    most frequent. Remarks are counted. Where the texts differ, the text of the first point is shown with its label."""
+    most frequent. Remarks are counted. Where the texts differ, the text of the first point is shown with its label.
+
+    files : summary of each point, of which the one with most remarks is named.
+    """
     told: dict[tuple[str, str], dict[str, set[int]]] = {}  # points by text, by what is said
     levels: dict[tuple[str, str], str] = {}
     for point, summary in enumerate(summaries):
@@ -203,11 +209,14 @@ def _tell_notes(summaries: Sequence[Mapping[str, Any] | None], labels: Sequence[
     for said in shown[:_MOST_NOTES]:
         text, points = next(iter(told[said].items()))
         of = f" (figures of {labels[min(points)]})" if len(told[said]) > 1 else ""
-        watcher.note(f"{number[said]} of {len(summaries)} points{of}: {text}")
+        watcher.note(f"{number[said]} of {counted(len(summaries), 'point')}{of}: {text}")
     if (more := len(shown) - _MOST_NOTES) > 0:
         watcher.note(f"and {more} more, in the summary.json of points")
-    if remarks := len(told) - len(shown):
-        watcher.note(f"{remarks} remark{'s' if remarks > 1 else ''} in the summary.json of points")
+    remarks = [said for said in told if levels[said] == Level.INFO]
+    if remarks:
+        places = [set().union(*told[said].values()) for said in remarks]
+        most = max(range(len(files)), key=lambda point: sum(point in own for own in places))
+        watcher.note(f'{counted(len(remarks), "remark")}: read "notes" in {files[most]} (each point has its own)')
 
 
 def _plan_points(
@@ -257,7 +266,10 @@ def _take(folder: Path, definition: Mapping[str, Any], resume: bool) -> None:
     if (folder / SCENE).exists():
         raise ResultsError(f"{folder}: holds a single run; give another --out")
     if path.exists() and not resume:
-        raise ResultsError(f"{folder}: holds a sweep already; --resume goes on in it (and may add values)")
+        raise ResultsError(
+            f"{folder}: holds a sweep already; give another folder with --out, or go on in this one with --resume "
+            "(values may be added)"
+        )
     if path.exists():
         _check_same_base(folder, definition)
     write_text(path, json.dumps(definition, indent=1, ensure_ascii=False) + "\n")

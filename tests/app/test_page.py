@@ -192,7 +192,7 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     tab.go(f"{server.base}/surfaces")
     tab.wait_text("statistics")
     tab.drop(own)
-    tab.wait_text("40 points were missing")
+    tab.wait_text("no height for 40 points")
     tab.type("despike", "6")
     tab.wait_text("were removed as spikes")
     tab.type("crop", "60 um")

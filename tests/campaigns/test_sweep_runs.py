@@ -525,7 +525,7 @@ def test_what_is_outside_the_model_is_among_the_notes_of_a_sweep_that_are_told()
     """With more than twenty notes it was cut off where it was of one point."""
     words = [f"note {letter}" for letter in "abcdefghijklmnopqrstuvwxyzABCD"]
     many = [{"notes": words}, {"notes": [*words, OUTSIDE + "half of it"]}]
-    _tell_notes(many, ["a = 1", "a = 2"], told := Telling())
+    _tell_notes(many, ["a = 1", "a = 2"], [Path("a"), Path("b")], told := Telling())
     assert told.notes[0] == f"1 of 2 points: {OUTSIDE}half of it"
     assert told.notes[-1] == "and 11 more, in the summary.json of points"
 
@@ -539,7 +539,7 @@ def test_notes_of_one_code_are_told_once_with_those_of_the_first_point():
     points[5]["notes"].append(SHEAR_LIMITED(limit="", reason="friction").as_dict())
     points[7]["notes"].append(FILM_THICK(limit=0.02).as_dict())
     points[1] = None
-    _tell_notes(points, [f"a = {i}" for i in range(30)], told := Telling())
+    _tell_notes(points, [f"a = {i}" for i in range(30)], [Path(f"{i}.json") for i in range(30)], told := Telling())
     assert [text.partition(": ")[0] for text in told.notes[:3]] == [
         "1 of 30 points",
         "29 of 30 points (figures of a = 0)",
@@ -548,7 +548,7 @@ def test_notes_of_one_code_are_told_once_with_those_of_the_first_point():
     assert OUTSIDE in told.notes[0]
     assert FILM_MOLECULAR(limit=1e-9) in told.notes[1]
     assert [text.split(": ")[1] for text in told.notes[3:5]] == ["load 2 N", "load 20 mN"]
-    assert told.notes[5:] == ["1 remark in the summary.json of points"]
+    assert told.notes[5:] == ['1 remark: read "notes" in 5.json (each point has its own)']
 
 
 def test_a_scene_that_the_swept_key_completes_is_checked_with_its_values():

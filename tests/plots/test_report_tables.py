@@ -245,3 +245,16 @@ def test_a_figure_of_a_life_is_shown_under_one_name():
     summary = {"lower_Sq_final_nm": [1.0, 2.0], "Sq_final_nm": [1.0, 2.0], "speed_m_s": [0.1, 0.2]}
     (table,) = figure_tables(summary, list(summary))
     assert table.head == ("speed (mm/s)", "Sq of the lower surface, final (nm)")
+
+
+def test_the_hardness_is_named_where_it_is_the_maximum_pressure():
+    """It had an error bar of the rounding of its cells: "7 ± 1.2e-07 GPa"."""
+    capped = {"max_pressure_Pa": 7e9, "max_pressure_Pa_error": 120.0, "plastic_area_fraction": 1e-3}
+    assert with_error("max_pressure_Pa", capped) == ("max pressure", "7 GPa (the hardness)")
+    below = {"max_pressure_Pa": 6.9e9, "max_pressure_Pa_error": 2e7, "plastic_area_fraction": 0.0}
+    assert with_error("max_pressure_Pa", below) == ("max pressure", "6.9 ± 0.02 GPa")
+
+
+def test_an_error_below_a_millionth_is_left_out():
+    assert with_error("load_N", {"load_N": 2.0, "load_N_error": 1.9e-6})[1] == "2 N"
+    assert with_error("load_N", {"load_N": 2.0, "load_N_error": 2.1e-6})[1] == "2 ± 2.1e-06 N"

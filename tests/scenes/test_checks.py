@@ -393,7 +393,10 @@ MAPS = {
     ),
     "surface_interpolated_from_few_points": (("few.npz", {}, "6 x 6 measured points"), ("whole.npz", {})),
     "much_of_the_map_is_filled": (("gaps.npz", {}, "25 %"), ("whole.npz", {})),
-    "outliers_of_the_instrument": (("spiky.npz", {}, "2 points stand out"), ("spiky.npz", {"despike": 6.0})),
+    "outliers_of_the_instrument": (
+        ("spiky.npz", {}, "2 points more than 6 standard"),
+        ("spiky.npz", {"despike": 6.0}),
+    ),
     "seams_that_alter_the_map": (
         ("form.npz", {"detrend": "none", "mirror": "none"}, "changes the heights by"),
         ("form.npz", {"detrend": "none"}),

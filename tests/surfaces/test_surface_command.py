@@ -53,7 +53,7 @@ def test_spikes_are_counted_and_their_removal_named(call, tmp_path):
     np.savez(tmp_path / "a.npz", heights=heights, spacing=(1e-6, 1e-6))
     code, out, _ = call("surface", "describe", tmp_path / "a.npz", "--detrend", "none")
     assert code == 0
-    assert "2 points stand out" in out
+    assert "2 points more than 6 standard deviations off" in out
     assert "--despike 6" in out
     code, out, _ = call("surface", "describe", tmp_path / "a.npz", "--detrend", "none", "--despike", "6")
     assert code == 0
