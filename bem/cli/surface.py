@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -108,7 +109,7 @@ def read(
     from bem.surfaces import write_surface
 
     new_file(out, "OUT", (".npz",))
-    surface = _read(file, detrend, fill, channel, spacing, height_unit, despike, level_lines)
+    surface = _read(file, _Reading(detrend, fill, channel, spacing, height_unit, despike, level_lines))
     path = write_surface(out, surface)
     _show(surface, file.name)
     print_written(path)
@@ -150,7 +151,7 @@ def describe(
 
     if figure is not None:
         new_file(figure, "--figure", (".png", ".pdf", ".svg"))
-    surfaces = _read_several(files, detrend, fill, channel, spacing, height_unit, despike, level_lines)
+    surfaces = _read_several(files, _Reading(detrend, fill, channel, spacing, height_unit, despike, level_lines))
     if len(files) == 1:
         _print_json(files[0], surfaces[0]) if json else _show(surfaces[0], files[0].name)
     else:
@@ -202,7 +203,7 @@ def plot(
     from bem.cli._terminal import print_written
 
     new_file(out, "OUT", (".png", ".pdf", ".svg"))
-    surface = _read(file, detrend, fill, channel, spacing, height_unit, despike, level_lines)
+    surface = _read(file, _Reading(detrend, fill, channel, spacing, height_unit, despike, level_lines))
     from bem.plots.surface import draw_surface
     from bem.surfaces.measurements import periodic_axes
 
@@ -210,45 +211,55 @@ def plot(
     print_written(out)
 
 
-def _read(
-    file: Path,
-    detrend: str | None,
-    fill: bool,
-    channel: str | None,
-    spacing: str | None,
-    height_unit: str | None,
-    despike: float | None,
-    level_lines: bool,
-) -> Surface:
+@dataclass(frozen=True)
+class _Reading:
+    """Options of reading a file, as they are given on the command line; None for the default of the file."""
+
+    detrend: str | None
+    fill: bool
+    channel: str | None
+    spacing: str | None
+    height_unit: str | None
+    despike: float | None
+    level_lines: bool
+
+
+def _read(file: Path, options: _Reading) -> Surface:
+    """Read a surface in metres.
+
+    Raises
+    ------
+    InputError : a file that cannot be read, or one whose scale neither it nor the options state.
+    """
     from bem.cli._quantity import spacing_of_points
     from bem.errors import InputError
     from bem.surfaces import read_surface
     from bem.surfaces.read import UnstatedScaleError, slope_in_metres, states_scale
 
-    sides = spacing_of_points(spacing, "--spacing")
+    sides, channel = spacing_of_points(options.spacing, "--spacing"), options.channel
     chosen = int(channel) if channel is not None and channel.isdigit() else channel
     try:
         surface = read_surface(
             file,
             # a plain map is a surface already: levelling it again would change its statistics and open its seams
-            detrend=detrend or ("none" if file.suffix.lower() == ".npz" else "plane"),
-            fill=fill,
+            detrend=options.detrend or ("none" if file.suffix.lower() == ".npz" else "plane"),
+            fill=options.fill,
             channel=chosen,
             spacing=sides,
-            height_unit=height_unit,
-            despike=despike,
-            level_lines=level_lines,
+            height_unit=options.height_unit,
+            despike=options.despike,
+            level_lines=options.level_lines,
         )
     except UnstatedScaleError as error:
         wants = {
             "how far its points are apart": None if sides else '--spacing "0.5 um"',
-            "in which unit its heights are": None if height_unit else "--height-unit nm",
+            "in which unit its heights are": None if options.height_unit else "--height-unit nm",
         }
         missing = {words: option for words, option in wants.items() if option is not None} or wants
         raise InputError(
             f"{file.name}: does not say {', or '.join(missing)}; allowed: with {' '.join(map(str, missing.values()))}"
         ) from error
-    if sides is not None and height_unit is None and not states_scale(file, chosen):
+    if sides is not None and options.height_unit is None and not states_scale(file, chosen):
         slope = slope_in_metres(surface)
         if slope is not None:
             raise InputError(
@@ -258,28 +269,16 @@ def _read(
     return surface
 
 
-def _read_several(
-    files: list[Path],
-    detrend: str | None,
-    fill: bool,
-    channel: str | None,
-    spacing: str | None,
-    height_unit: str | None,
-    despike: float | None,
-    level_lines: bool,
-) -> list[Surface]:
+def _read_several(files: list[Path], options: _Reading) -> list[Surface]:
     """Read maps; spacing and unit of heights are for the files that do not say them, if there are any."""
     from bem.surfaces.read import states_scale
 
     stated = [False] * len(files)
-    if len(files) > 1 and (spacing is not None or height_unit is not None):
+    if len(files) > 1 and (options.spacing is not None or options.height_unit is not None):
         stated = [states_scale(file) for file in files]
         stated = [one and not all(stated) for one in stated]
-    scales = [(None, None) if own else (spacing, height_unit) for own in stated]
-    return [
-        _read(file, detrend, fill, channel, *scale, despike, level_lines)
-        for file, scale in zip(files, scales, strict=True)
-    ]
+    own_scale = replace(options, spacing=None, height_unit=None)
+    return [_read(file, own_scale if own else options) for file, own in zip(files, stated, strict=True)]
 
 
 def _show(surface: Surface, name: str) -> None:
