@@ -489,3 +489,16 @@ CATALOGUE: Catalogue = _catalogue()
 
 `CATALOGUE["silicon-nitride"]` may stand wherever a body may, and its `.material` wherever a material may.
 """
+
+
+def relaxation_span(material: Material) -> tuple[float, float] | None:
+    """Return the times after loading [s] between which the catalogue's source of a material's relaxation holds.
+
+    None of a material that does not relax, and of a series that the catalogue does not have.
+    """
+    if material.relaxation is None:
+        return None
+    return next(
+        (entry.relaxation_span for entry in CATALOGUE.values() if entry.material.relaxation == material.relaxation),
+        None,
+    )

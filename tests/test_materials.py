@@ -1,6 +1,7 @@
 """Materials, layers and bodies refuse what they cannot be made of."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,9 +16,11 @@ from bem import (
     contact_modulus,
     dundurs_beta,
     plan_scene,
+    run_scene,
     surface_temperature,
 )
-from bem.materials import softer_hardness
+from bem.materials import relaxation_span, softer_hardness
+from bem.relaxation import PronySeries
 from bem.scenes import load_scene
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
@@ -201,3 +204,39 @@ def test_polyisobutylene_slides_in_a_scene_and_other_kinds_refuse_it():
     data["contact"] = {"load": "1 N"}
     with pytest.raises(InputError, match="relaxes"):
         load_scene(data)
+
+
+SLIDING = {
+    "kind": "contact", "lower": {"material": "polyisobutylene"}, "shape": {"kind": "cylinder", "radius": "10 mm"},
+    "grid": {"shape": [32, 1], "lengths": ["4 mm", "10 mm"], "periodic": [False, True]}, "outputs": {"errors": False},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("control", "reason"),
+    [
+        ({"sliding_speed": "1 m/s"}, None),
+        ({"sliding_speed": "10 um/s"}, "passing"),  # some 2.5 mm in 250 s
+        ({"sliding_speed": "50 um/s"}, None),  # in some 40 s, of which 100 s are known
+        ({"times": ["0 s", "90 s"], "load_path": ["0.1 N"]}, None),
+        ({"times": ["0 s", "110 s"], "load_path": ["0.1 N"]}, "path"),
+    ],
+)
+def test_times_beyond_the_source_of_a_relaxation_are_said(tmp_path, control, reason):
+    found = run_scene(SLIDING | {"contact": {"load": "1 N"} | control}, tmp_path / "run", figures=False)
+    texts = [note["text"] for note in found.summary["notes"] if note["code"] == "relaxation-extrapolated"]
+    assert len(texts) == (reason is not None)
+    if reason == "passing":  # 20 cells in contact over the speed
+        assert "for 250 s at most" in texts[0]
+        assert found.summary["contact_area_m2"] / 10e-3 / 10e-6 == pytest.approx(250, rel=0.1)
+    if reason == "path":
+        assert "takes 110 s" in texts[0]
+        assert "2e-11 s to 100 s" in texts[0]
+
+
+def test_a_series_of_one_s_own_has_no_span():
+    entry = CATALOGUE["polyisobutylene"]
+    assert relaxation_span(entry.material) == entry.relaxation_span
+    series = PronySeries(shares=[0.5], times=[1.0])
+    assert relaxation_span(replace(entry.material, relaxation=series)) is None
+    assert relaxation_span(CATALOGUE["glass"].material) is None

@@ -92,6 +92,23 @@ HYSTERESIS_UNBALANCED = define(
         ),
     },
 )
+RELAXATION_EXTRAPOLATED = define(
+    "relaxation-extrapolated",
+    CAUTION,
+    "The relaxation is extrapolated beyond the times of its source.",
+    reasons={
+        "passing": Reason(
+            "A point of {material} is under pressure for {time:si s} at most while it passes the contact; the modulus"
+            " is known from {low:si s} to {high:si s} after loading.",
+            "Take another speed, or a relaxation that was measured at such times.",
+        ),
+        "path": Reason(
+            "The path takes {time:si s}; the modulus of {material} is known from {low:si s} to {high:si s} after"
+            " loading.",
+            "Take other times, or a relaxation that was measured at such times.",
+        ),
+    },
+)
 MEAN_GAP_NOT_MET = define(
     "mean-gap-not-met",
     CAUTION,

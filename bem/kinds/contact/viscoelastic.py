@@ -5,11 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from bem.grid import FloatArray, Grid
 from bem.kinds.contact.scene import ContactScene
 from bem.kinds.contact.solve import standing_off
+from bem.materials import Material, relaxation_span
 from bem.notes import Note
-from bem.notes.contact import HYSTERESIS_UNBALANCED
+from bem.notes.contact import HYSTERESIS_UNBALANCED, RELAXATION_EXTRAPOLATED
 from bem.scenes import build
 from bem.scenes.context import Context
 from bem.scenes.packing import keep, kept
@@ -118,6 +121,21 @@ class RelaxedResponse:
 
 
 def relaxed_notes(scene: ContactScene, grid: Grid, solved: Relaxed) -> tuple[Note, ...]:
+    """Return the notes on work and energy that do not balance, and on times at which the relaxation is not known."""
+    return (*_unbalanced(scene, grid, solved), *_extrapolated(scene, grid, solved))
+
+
+def _relaxing(scene: ContactScene) -> list[tuple[Material, float]]:
+    """Return the materials that relax, and the speeds at which they pass the contact [m/s]."""
+    bodies = (scene.lower.build(), scene.upper.build())
+    return [
+        (body.material, abs(speed))
+        for speed, body in zip(scene.speeds or (0.0, 0.0), bodies, strict=True)
+        if body is not None and body.material.relaxation is not None
+    ]
+
+
+def _unbalanced(scene: ContactScene, grid: Grid, solved: Relaxed) -> tuple[Note, ...]:
     """Return the note on work and energy that do not balance."""
     from bem.viscoelastic import SteadySolution
 
@@ -125,11 +143,27 @@ def relaxed_notes(scene: ContactScene, grid: Grid, solved: Relaxed) -> tuple[Not
         return ()
     if not isinstance(solved, SteadySolution):
         return (HYSTERESIS_UNBALANCED(reason="work", share=solved.imbalance),)
-    assert scene.speeds is not None
-    lengths = [
-        abs(speed) * max(body.material.relaxation.times)
-        for speed, body in zip(scene.speeds, (scene.lower.build(), scene.upper.build()), strict=True)
-        if body is not None and body.material.relaxation is not None
-    ]
-    cell = grid.spacing[0]
-    return (HYSTERESIS_UNBALANCED(reason="power", share=solved.imbalance, length=max(lengths), cell=cell),)
+    length = max(speed * max(material.relaxation.times) for material, speed in _relaxing(scene) if material.relaxation)
+    return (HYSTERESIS_UNBALANCED(reason="power", share=solved.imbalance, length=length, cell=grid.spacing[0]),)
+
+
+def _extrapolated(scene: ContactScene, grid: Grid, solved: Relaxed) -> tuple[Note, ...]:
+    """Return the notes on materials of the catalogue that are loaded for times of which their source knows nothing.
+
+    In steady motion a point is under pressure while it passes the cells in contact on its line along x. A body that the
+    contact does not pass, and one at rest under its load from the start, is relaxed whatever the time.
+    """
+    from bem.viscoelastic import SteadySolution
+
+    notes = []
+    for material, speed in _relaxing(scene):
+        span = relaxation_span(material)
+        if isinstance(solved, SteadySolution):
+            length = float(np.count_nonzero(solved.contact.pressure > 0, axis=0).max()) * grid.spacing[0]
+            reason, time = "passing", length / speed if speed else 0.0
+        else:
+            reason, time = "path", scene.contact.times[-1] - scene.contact.times[0]
+        if span is not None and time > 0 and not span[0] <= time <= span[1]:
+            values: dict[str, Any] = {"material": material.name, "time": time, "low": span[0], "high": span[1]}
+            notes.append(RELAXATION_EXTRAPOLATED(reason=reason, **values))
+    return tuple(notes)
