@@ -82,7 +82,7 @@ def treated(path: str, asked: dict[str, Any]) -> Treated:
     own = None
     if asked.get("cells", "") != "":
         own = {"shape": list(grid.shape), "lengths": [length_text(side) for side in lengths]}
-    measured = MeasuredMap(grid.shape, grid.spacing, surface, described.Sq, resampled=own is not None)
+    measured = MeasuredMap(grid.shape, grid.spacing, surface, described.Sq, resampled=own is not None, source=table)
     sides = (np.asarray(grid.x), np.asarray(grid.y))
     pictures = [map_picture(heights, sides, Path(path).name, "m", solid=solid) for solid in (False, True)]
     return Treated(pictures[0], pictures[1], tuple(figures), tuple(map(str, notes)), surface, own, measured)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 if TYPE_CHECKING:
-    from bem.scenes.own_surfaces import MapScale
+    from bem.scenes.own_surfaces import MapScale, MeasuredMap
 
 
 def complete_kind(incomplete: str) -> list[str]:
@@ -85,17 +86,37 @@ def register(app: typer.Typer) -> None:
         scale = _map_scale(spacing, height_unit)
         if scale is not None and not surfaces:
             raise InputError("--spacing, --height-unit: there is no measured surface; allowed: with --lower or --upper")
-        text = element or scene_template(
-            kind, everything=everything, surfaces=surfaces, folder=path.resolve().parent, scale=scale
-        )
+        maps = _maps(surfaces, path.resolve().parent, scale)
+        text = element or scene_template(kind, everything=everything, surfaces=maps)
         if path.exists():
             raise ResultsError(f"{path}: exists; give another FILE")
         if not path.parent.is_dir():
             raise ResultsError(f"{path.parent}: no such folder")
+        _print_notes(maps)
         write_text(path, text)
         after = f"bem element {path}" if element else f"bem plan {path}; bem run {path}"
         print_written(path)
         print(f"next:    {after}")
+
+
+def _maps(files: dict[str, str], folder: Path, scale: MapScale | None) -> dict[str, MeasuredMap]:
+    """Return the maps of measured surfaces, by body."""
+    if not files:
+        return {}
+    from bem.scenes.own_surfaces import read_maps
+
+    return read_maps(files, folder, scale)
+
+
+def _print_notes(maps: dict[str, MeasuredMap]) -> None:
+    """Say what makes two maps a poor pair."""
+    if len(maps) < 2:
+        return
+    from bem.cli._terminal import print_text
+    from bem.scenes.own_surfaces import notes_on_maps
+
+    for text in notes_on_maps(maps):
+        print_text(f"bem: note: {text}", file=sys.stderr)
 
 
 def _map_scale(spacing: str | None, height_unit: str | None) -> MapScale | None:

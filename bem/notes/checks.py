@@ -367,7 +367,7 @@ PRESSURE_AT_SEAM = define(
     CAUTION,
     "The highest pressure lies on a seam of a mirrored surface.",
     "The ridge there is the mirror's (along {axes}), and so are the stress and the particles below it.",
-    "Leave mirror out; the seams are then closed without ridges.",
+    "{action}",
 )
 STRAIN_LARGE = define(
     "strain-large",

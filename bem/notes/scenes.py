@@ -101,11 +101,10 @@ MAP_ALTERED = define(
             headline=_PERIODIC,
         ),
         "seams-large": Reason(
-            "The step where its ends meet is spread out, which changes the heights by {change:si m} rms; Sq is then "
-            "{height:si m}.",
-            'Set mirror = "both" in its surface, grid.periodic = false, or remove form with detrend or high_pass.',
+            "The step where its ends meet is spread out (Moisan 2011); Sq is then {height:si m}.",
+            "{action}",
             CAUTION,
-            headline="Making the map periodic changed its heights much.",
+            headline="Making the map periodic changed its heights by {change:si m} rms.",
         ),
         "scaled": Reason(
             "They are multiplied by {factor:.2g} to have Sq {height:si m}, and slopes with them.",

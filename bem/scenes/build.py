@@ -81,7 +81,7 @@ def heights_of(
     if isinstance(surface, GeneratedSurface):
         return _generated(surface, grid, seed)
     on_grid = map_on(surface, grid)
-    for text in on_grid.notes:
+    for text in on_grid.remarks:
         note(text)
     return on_grid.heights if on_grid.heights.flags.writeable else on_grid.heights.copy()
 

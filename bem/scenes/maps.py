@@ -5,6 +5,7 @@ Verified in tests/scenes/test_surfaces_made_once.py.
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -29,6 +30,12 @@ KEPT = KeptValues(1 << 25)
 """Heights of this process, read-only: a run's plan looks at what the run then takes, and points of a sweep share them.
 Generated ones without marks of tools; measured maps as they were read, and on grids. One surface of 2048 x 2048 cells,
 or several smaller ones."""
+
+MOST_SEAM_CHANGE = 0.3
+"""Rms change of the heights over their Sq above which a map that is made periodic is another surface: the change is
+long waves, and with them a tenth of the variance (0.3^2)."""
+MOST_DESCRIBED = 1 << 20
+"""Cells of a grid up to which a plan puts maps onto it; of larger ones it describes the map as it was measured."""
 
 
 def content_of(surface: MeasuredSurface) -> str:
@@ -65,6 +72,22 @@ class MapOnGrid:
 
     heights: FloatArray
     notes: tuple[Note, ...]
+
+    @property
+    def seam_change(self) -> float:
+        """Rms change of the heights by closing the seams [m]; zero where none was closed."""
+        return sum(float(note.values["change"]) for note in self.notes if note.values.get("reason") == "seams")
+
+    @property
+    def seams_alter_it(self) -> bool:
+        """Return True if closing the seams made another surface of the map."""
+        return self.seam_change > MOST_SEAM_CHANGE * float(self.heights.std())
+
+    @property
+    def remarks(self) -> tuple[Note, ...]:
+        """The notes without that on seams which the check `seams_that_alter_the_map` makes a caution."""
+        told = self.heights.size <= MOST_DESCRIBED and self.seams_alter_it
+        return tuple(note for note in self.notes if not (told and note.values.get("reason") == "seams"))
 
     @property
     def nbytes(self) -> int:
@@ -138,10 +161,12 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     open_x, open_y = (wraps and not mirrored for wraps, mirrored in zip(grid.periodic, axes, strict=True))
     if open_x or open_y:
         found = close_seams(found, axes=(open_x, open_y))
+    scaled = found if surface.rms_height is None else scale_to_rms(found, surface.rms_height)
+    if open_x or open_y:
         along = " and ".join(axis for axis, is_open in zip("xy", (open_x, open_y), strict=True) if is_open)
-        note(MAP_ALTERED(name, along=along, change=float(found.metadata["seams_closed"]), reason="seams"))
-    if surface.rms_height is not None:
-        found = scale_to_rms(found, surface.rms_height)
+        factor = float(scaled.heights.std()) / float(found.heights.std() or math.inf)
+        note(MAP_ALTERED(name, along=along, change=factor * float(found.metadata["seams_closed"]), reason="seams"))
+    found = scaled
     return np.ascontiguousarray(found.heights - found.heights.mean())
 
 

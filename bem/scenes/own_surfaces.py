@@ -8,16 +8,21 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from bem.errors import InputError
+from bem.grid import Grid
 from bem.notes.note import percent
 from bem.quantities import si
+from bem.scenes.common import MeasuredSurface
 from bem.scenes.kind import get_kind
+from bem.scenes.maps import MOST_SEAM_CHANGE, map_on
+from bem.scenes.paths import absolute
 from bem.scenes.tables.wear_model import WearScenePart
+from bem.scenes.validate import validate
 from bem.surfaces.examples import example_path
 
 KINDS = ("contact", "friction", "running-in", "wear")
@@ -27,6 +32,12 @@ _SAME_SPACING = 0.7
 """Ratio of the spacings of two maps above which the finer one is taken for the grid."""
 _MOST_CELLS = 192
 """Cells along an axis of a first mesh: a wear loop of 100 cycles takes some minutes."""
+_FEWEST_POINTS = 32
+"""Points of a map along an axis of a patch: on fewer the contact is a handful of cells."""
+_MOST_UNLIKE = 10.0
+"""Ratio of the cells of two maps above which the finer map is mostly left out."""
+_LEAST_COMMON = 0.1
+"""Common area over that of the larger map, below which the pair is remarked on."""
 _MARGIN = 2.2
 """Length of the mesh over the half-width within which the surfaces touch."""
 _FEWEST_CELLS = 48
@@ -53,6 +64,7 @@ class MeasuredMap:
     table : keys of its table in a scene.
     rms_height : Sq [m].
     resampled : True if the cells are not those of the file.
+    source : the table with its file's absolute path, from which its seams are judged; None where they are not.
     """
 
     shape: tuple[int, int]
@@ -60,6 +72,7 @@ class MeasuredMap:
     table: dict[str, Any]
     rms_height: float
     resampled: bool = False
+    source: MeasuredSurface | None = None
 
     @property
     def lengths(self) -> tuple[float, float]:
@@ -119,7 +132,45 @@ def read_maps(files: Mapping[str, str], folder: Path, scale: MapScale | None = N
     return found
 
 
-def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, MeasuredMap]) -> dict[str, Any]:
+@dataclass(frozen=True)
+class OwnStart:
+    """A first scene on measured surfaces.
+
+    Attributes
+    ----------
+    values : of the scene, by key.
+    reasons : why some of them were chosen, by path of the key.
+    """
+
+    values: dict[str, Any]
+    reasons: dict[tuple[str, ...], str] = field(default_factory=dict)
+
+
+def notes_on_maps(found: Mapping[str, MeasuredMap]) -> list[str]:
+    """Return what makes two maps a poor pair, each with what to do: cells of unlike size, or a small common area."""
+    if len(found) < 2:
+        return []
+    notes, names = [], list(found)
+    cells = [max(one.spacing) for one in found.values()]
+    coarse, fine = (names[cells.index(pick(cells))] for pick in (max, min))
+    if max(cells) > _MOST_UNLIKE * min(cells):
+        notes.append(
+            f"the cells of the {coarse} map ({si(max(cells), 'm')}) are {max(cells) / min(cells):.0f} times those of "
+            f"the {fine} map ({si(min(cells), 'm')}): roughness shorter than two of the large cells is left out; "
+            "measure both with similar cells"
+        )
+    areas = [math.prod(one.lengths) for one in found.values()]
+    common = math.prod(_common_lengths(found.values()))
+    if common < _LEAST_COMMON * max(areas):
+        large = names[areas.index(max(areas))]
+        notes.append(
+            f"only {percent(common / max(areas))} of the {large} map is used, its middle, as large as the other map; "
+            "measure areas of similar size"
+        )
+    return notes
+
+
+def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, MeasuredMap]) -> OwnStart:
     """Return values of a first scene of a kind on measured surfaces.
 
     start : values of the kind's first scene. found : map of each body, by "lower" and "upper".
@@ -137,12 +188,8 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, 
     smallest = min(min(one.lengths) for one in found.values())
     if kind == "contact":
         data.pop("shape", None)  # a patch of a larger contact, on cells and area of the maps
-        grid: dict[str, Any] = {"periodic": True}
-        for one in found.values():
-            if one.resampled:
-                grid |= {"shape": list(one.shape), "spacing": _cells(one.spacing)}
-        grid |= _coarser_grid(list(found.values()))
-        return data | {"grid": grid, "contact": {"mean_pressure": "20 MPa", "behaviour": "capped"}}
+        data["contact"] = {"mean_pressure": "20 MPa", "behaviour": "capped"}
+        return _on_a_patch(data, found)
     rms_height = math.hypot(*(one.rms_height for one in found.values()))
     data, length = _fitted(kind, data, spacing, smallest, rms_height)
     cells, cell = _mesh(length, spacing)
@@ -151,14 +198,14 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, 
     else:
         data["grid"] = {"shape": cells, "spacing": _length(cell)}
     if kind == "friction":
-        return data
+        return OwnStart(data)
     if kind == "running-in":
         data["speeds"] = {"values": [data["speeds"]["first"]]}
         # over a whole turn friction does not hang on the place where the roughness of both bodies meets
         turn = round(cells / abs(WearScenePart().shift))
         data["cycles"] = {"count": _CYCLES, "averaged": turn, "coarser_grid": True}
     data["depths"] = {"count": 64, "spacing": _length(cell / 2)}
-    return data | {"wear": _wear(kind, data, cell)}
+    return OwnStart(data | {"wear": _wear(kind, data, cell)})
 
 
 def _scale_of(body: str, path: str, scale: MapScale) -> MapScale | None:
@@ -200,11 +247,12 @@ def _read(body: str, path: str, folder: Path, scale: MapScale) -> MeasuredMap:
     from bem.surfaces.filter import MOST_SPIKES, count_spikes
 
     surface = read_surface(path, detrend="curvature", **scale.read_arguments)
+    name = Path(path).name
     cells = surface.shape[0] * surface.shape[1]
     missing = float(surface.metadata.get("missing_points", 0) or 0) / cells
     if missing > _MOST_FILLED:
         raise InputError(
-            f"--{body}: {Path(path).name}: {percent(missing)} of the points are missing, so that most of what touches "
+            f"--{body}: {name}: {percent(missing)} of the points are missing, so that most of what touches "
             f"would be filled in; allowed: up to {percent(_MOST_FILLED)}; measure again, or cut out a part without "
             "holes in the instrument's program"
         )
@@ -215,20 +263,99 @@ def _read(body: str, path: str, folder: Path, scale: MapScale) -> MeasuredMap:
     if 0 < spikes < MOST_SPIKES:
         table["despike"] = 6
         surface = read_surface(path, detrend="curvature", despike=6, **scale.read_arguments)
-    return MeasuredMap(surface.shape, surface.spacing, table, float(surface.heights.std()))
+    source = validate(table | {"path": absolute(path, Path())}, MeasuredSurface)
+    return MeasuredMap(surface.shape, surface.spacing, table, float(surface.heights.std()), source=source)
 
 
-def _coarser_grid(maps: list[MeasuredMap]) -> dict[str, Any]:
-    """Return keys of a grid of the coarser spacing on the area of both maps; none of maps of one spacing.
+def _common_lengths(maps: Collection[MeasuredMap]) -> tuple[float, float]:
+    """Return the side lengths that all maps cover [m]."""
+    return min(one.lengths[0] for one in maps), min(one.lengths[1] for one in maps)
 
-    Between the points of the coarser map there is no roughness: on cells of the finer one it would be interpolated.
+
+def _common_cells(maps: Collection[MeasuredMap]) -> tuple[tuple[int, int], tuple[float, float]]:
+    """Return an even number of cells on the common area of maps, and their spacing [m].
+
+    Between the points of the coarser map there is no roughness, so that its spacing is taken where they differ much.
     """
-    spacing = [max(one.spacing[axis] for one in maps) for axis in (0, 1)]
-    if all(one.spacing[axis] > _SAME_SPACING * spacing[axis] for one in maps for axis in (0, 1)):
-        return {}
-    lengths = [min(one.lengths[axis] for one in maps) for axis in (0, 1)]
-    shape = [math.floor(length / side * (1 + 1e-9)) for length, side in zip(lengths, spacing, strict=True)]
-    return {"shape": shape, "spacing": _cells(spacing)}
+    sides = [[one.spacing[axis] for one in maps] for axis in (0, 1)]
+    alike = all(min(own) > _SAME_SPACING * max(own) for own in sides)
+    dx, dy = (min(own) if alike else max(own) for own in sides)
+    nx, ny = (
+        2 * math.floor(length / side / 2 * (1 + 1e-9))
+        for length, side in zip(_common_lengths(maps), (dx, dy), strict=True)
+    )
+    return (nx, ny), (dx, dy)
+
+
+def _on_a_patch(data: dict[str, Any], found: Mapping[str, MeasuredMap]) -> OwnStart:
+    """Return the first scene of a periodic patch as large as the area of the maps.
+
+    Cells of the maps that do not lie within the patch are cut off, so that heights are not interpolated between them.
+    Where closing the seams would alter a map, all maps are continued by their mirror images.
+    """
+    maps = found.values()
+    shape, spacing = _common_cells(maps)
+    if min(shape) < _FEWEST_POINTS:
+        raise _too_few_points(found, shape)
+    lengths = shape[0] * spacing[0], shape[1] * spacing[1]
+    cut = {}
+    for body, one in found.items():
+        on_its_cells = all(math.isclose(a, b, rel_tol=1e-9) for a, b in zip(one.spacing, spacing, strict=True))
+        if on_its_cells and one.shape != shape and not one.resampled:
+            cut[body] = lengths
+            data[body]["surface"] = {**data[body]["surface"], "crop": _cells(lengths)}
+    grid: dict[str, Any] = {"periodic": True}
+    mirror, why = _mirrors(found, cut, Grid(shape, spacing))
+    for body in found if mirror != "none" else ():
+        data[body]["surface"] = {**data[body]["surface"], "mirror": mirror}
+    whole = tuple(n * (2 if mirror in (axis, "both") else 1) for axis, n in zip("xy", shape, strict=True))
+    if len(found) > 1 or any(one.resampled for one in maps):
+        grid |= {"shape": list(whole), "spacing": _cells(spacing)}
+    reasons: dict[tuple[str, ...], str] = {(body, "surface", "mirror"): why for body in found if mirror != "none"}
+    return OwnStart(data | {"grid": grid}, reasons)
+
+
+def _mirrors(found: Mapping[str, MeasuredMap], cut: Mapping[str, tuple[float, float]], part: Grid) -> tuple[str, str]:
+    """Return the axes along which maps on a part of a grid are mirrored, and why; "none" where seams close well.
+
+    A step where the ends of a map meet is closed by long waves. Beyond `MOST_SEAM_CHANGE` of Sq they are more than a
+    tenth of the variance, and the patch is another surface. The mirror image has no step, and the same heights.
+    """
+    sources = {body: one.source for body, one in found.items() if one.source is not None}
+    if len(sources) < len(found) or any(table.mirror != "none" for table in sources.values()):
+        return "none", ""
+    first = ""
+    for mirror in ("none", "x", "y", "both"):
+        counts = [n * (2 if mirror in (axis, "both") else 1) for axis, n in zip("xy", part.shape, strict=True)]
+        grid = Grid((counts[0], counts[1]), part.spacing, periodic=(True, True))
+        change = 0.0
+        for body, table in sources.items():
+            on_grid = map_on(table.model_copy(update={"mirror": mirror, "crop": cut.get(body, table.crop)}), grid)
+            change = max(change, on_grid.seam_change / (float(on_grid.heights.std()) or math.inf))
+        if mirror == "none":
+            first = (
+                f"Chosen because the ends of a map do not meet: closing the step would change its heights by "
+                f"{percent(change)} of Sq (more than {percent(MOST_SEAM_CHANGE)})."
+            )
+        if change <= MOST_SEAM_CHANGE:
+            break
+    return mirror, first
+
+
+def _too_few_points(found: Mapping[str, MeasuredMap], shape: tuple[int, int]) -> InputError:
+    """Return the refusal of maps on whose points no rough contact can be resolved."""
+    fewest = f"{_FEWEST_POINTS} x {_FEWEST_POINTS} points or more"
+    for body, one in found.items():
+        if min(one.shape) < _FEWEST_POINTS:
+            return InputError(
+                f"--{body}: the map has {one.shape[0]} x {one.shape[1]} points, of which a handful would touch; "
+                f"allowed: {fewest}; measure a larger area or with a finer spacing"
+            )
+    x, y = _common_lengths(found.values())
+    return InputError(
+        f"--lower, --upper: the maps have {si(x, 'm')} x {si(y, 'm')} in common, {shape[0]} x {shape[1]} points of the "
+        f"coarser one; allowed: {fewest}; measure both on areas of similar size, with similar spacing"
+    )
 
 
 def _half_width(kind: str, data: Mapping[str, Any]) -> float:
@@ -304,7 +431,6 @@ def _digits(value: float) -> str:
 
 def _wear(kind: str, data: Mapping[str, Any], cell: float) -> dict[str, Any]:
     """Archard's law with the particles of the averaged von Mises criterion, and a distance that keeps steps stable."""
-    from bem.grid import Grid
     from bem.wear.criterion.local import cell_to_cell_compliance
 
     scene = _without_roughness(kind, data)

@@ -68,13 +68,14 @@ def scene_template(
         raise InputError(
             f"KIND {show(kind)}: not a kind of scene{close}; allowed: {listed}, or a built-in scene of `bem scenes`"
         )
-    data = start_scene(kind)
+    data, reasons = start_scene(kind), {}
     if surfaces:
         from bem.scenes.own_surfaces import own_surfaces_start, read_maps  # reads files of instruments
 
         files = {body: one for body, one in surfaces.items() if isinstance(one, str)}
         maps = {body: one for body, one in surfaces.items() if not isinstance(one, str)}
-        data = own_surfaces_start(kind, data, maps | read_maps(files, folder or Path.cwd(), scale))
+        own = own_surfaces_start(kind, data, maps | read_maps(files, folder or Path.cwd(), scale))
+        data, reasons = own.values, own.reasons
     more = "Keys behind a # show their default or an example; levels: basic, advanced (models), expert (numerics)."
     lines = [
         f"# {get_kind(kind).title[:1].upper()}{get_kind(kind).title[1:]}.",
@@ -84,7 +85,7 @@ def scene_template(
         else f"# Lines behind a # are optional or alternatives; `bem new {kind} --all` writes all keys.",
         "# `bem plan FILE` checks the file and shows the work, `bem run FILE` runs it.",
         f'kind = "{kind}"',
-        *_Writer(everything).table(keys_of_kind(kind), data, ()),
+        *_Writer(everything, reasons).table(keys_of_kind(kind), data, ()),
     ]
     return "\n".join(lines).rstrip() + "\n"
 
@@ -102,10 +103,11 @@ class _Writer:
     Parameters
     ----------
     everything : whether to write all keys; otherwise those at the level basic, in tables that have values.
+    reasons : why values were chosen, by path of the key; written behind the meaning.
     """
 
-    def __init__(self, everything: bool) -> None:
-        self._everything = everything
+    def __init__(self, everything: bool, reasons: Mapping[tuple[str, ...], str]) -> None:
+        self._everything, self._reasons = everything, reasons
         self._written: dict[Any, str] = {}
 
     def table(self, table: FormTable, data: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
@@ -121,7 +123,8 @@ class _Writer:
                 inner.append((one, value))
                 continue
             if value is not None:
-                lines.append((f"{one.last} = {typed(value)}", _meaning(one, short=not self._everything)))
+                about = f"{_meaning(one, short=not self._everything)} {self._reasons.get((*path, one.last), '')}"
+                lines.append((f"{one.last} = {typed(value)}", about.rstrip()))
             elif one.typed and not one.rows and (self._everything or one.level == "basic"):
                 lines.append((f"# {one.last} = {one.example}", _meaning(one, short=not self._everything)))
             if self._everything and (one.tables or one.rows) and not _beside(table, one):

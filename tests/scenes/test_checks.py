@@ -398,7 +398,7 @@ MAPS = {
         ("spiky.npz", {"despike": 6.0}),
     ),
     "seams_that_alter_the_map": (
-        ("form.npz", {"detrend": "none", "mirror": "none"}, "changes the heights by"),
+        ("form.npz", {"detrend": "none", "mirror": "none"}, "changed its heights by"),
         ("form.npz", {"detrend": "none"}),
     ),
     "scaled_out_of_proportion": (

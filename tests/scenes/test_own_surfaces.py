@@ -170,7 +170,7 @@ def test_a_contact_of_maps_of_unequal_spacing_has_the_cells_of_the_coarser(tmp_p
     planned, _ = plan_scene(scene)
     grid = build.grid_of(planned.grid)
     assert grid.spacing == pytest.approx((0.5e-6, 0.5e-6), rel=1e-3, abs=0)
-    assert grid.shape == (102, 102)  # 51.2 um of the smaller map
+    assert grid.shape == (204, 204)  # 51.2 um of the smaller map, and its mirror image
     assert "map-coarse" not in {note.code for note in scene_warnings(examine(planned))}
 
 
@@ -206,18 +206,72 @@ def seam_notes(path, *settings):
 
 
 def test_a_map_bent_to_be_periodic_has_a_caution_with_what_to_do(tmp_path):
-    """Roughness of 20 nm on a cubic form of 200 nm, which removal of curvature leaves."""
-    grid = Grid((96, 96), (0.5e-6, 0.5e-6), periodic=(True, True))
+    """Roughness of 20 nm on a cubic form of 200 nm, which removal of curvature leaves; odd cells cannot be mirrored."""
+    grid = Grid((97, 96), (0.5e-6, 0.5e-6), periodic=(True, True))
     heights = generate_surface(grid, rms_height=20e-9, correlation_length=2e-6, seed=1)
-    form = 200e-9 * np.linspace(-1, 1, 96)[:, None] ** 3
+    form = 200e-9 * np.linspace(-1, 1, 97)[:, None] ** 3
     scene = tmp_path / "mine.toml"
     for bent, files in ((0, heights), (1, heights + form)):
         file = _map(tmp_path / f"map{bent}.npz", files, grid.spacing)
         scene.write_text(scene_template("contact", surfaces={"lower": file}, folder=tmp_path))
-        found = seam_notes(scene)
+        plain = ["lower.surface.mirror=none", "lower.surface.crop=", "grid.shape=[97,96]", "grid.spacing=0.5 um"]
+        found = seam_notes(scene, *plain)
         assert [note.level for note in found] == [Level.CAUTION] * bent
     assert 'mirror = "both"' in found[0]
-    assert not seam_notes(scene, "lower.surface.mirror=both")
+    assert "even numbers of cells along x" in found[0]
+    assert "detrend" not in found[0]  # the curvature is removed already
+    assert not seam_notes(scene, *plain[1:], "lower.surface.mirror=both", "grid.shape=96")
+
+
+def test_a_map_whose_ends_do_not_meet_is_mirrored_along_these_axes_with_the_reason(tmp_path):
+    """`new` advised to mirror what had an odd number of cells, which is refused. The form's step is along x alone."""
+    grid = Grid((97, 131), (0.5e-6, 0.5e-6), periodic=(True, True))
+    heights = generate_surface(grid, rms_height=20e-9, correlation_length=2e-6, seed=1)
+    bent = _map(tmp_path / "bent.npz", heights + 200e-9 * np.linspace(-1, 1, 97)[:, None] ** 3, grid.spacing)
+    scene = tmp_path / "mine.toml"
+    scene.write_text(text := scene_template("contact", surfaces={"lower": bent}, folder=tmp_path))
+    planned, _ = plan_scene(scene)
+    assert planned.lower.surface.mirror == "x"
+    assert build.grid_of(planned.grid).shape == (192, 130)
+    said = " ".join(text.replace("#", "").split())
+    assert "Chosen because the ends of a map do not meet" in said
+    assert not seam_notes(scene)
+
+
+def test_cells_of_odd_maps_are_cut_off_and_not_interpolated(tmp_path):
+    """189 x 151 of 201 x 151 points lay half a cell off, which smoothed the map along x."""
+    rng = np.random.default_rng(2)
+    files, heights = {}, {}
+    for body, shape in (("lower", (201, 151)), ("upper", (189, 160))):
+        heights[body] = 1e-8 * rng.standard_normal(shape)
+        files[body] = _map(tmp_path / f"{body}.npz", heights[body], (1e-6, 1e-6))
+    scene = tmp_path / "mine.toml"
+    scene.write_text(scene_template("contact", surfaces=files, folder=tmp_path))
+    planned, _ = plan_scene(scene, ["lower.surface.detrend=none"])
+    grid = build.grid_of(planned.grid)
+    assert grid.shape == (188, 150)
+    found = build.heights_of(planned.lower.surface, grid, 0)
+    whole = heights["lower"]
+    part = max((whole[i : i + 188, j : j + 150] for i in (6, 7) for j in (0, 1)), key=lambda one: (one * found).sum())
+    assert np.corrcoef(part.ravel(), found.ravel())[0, 1] > 0.97  # closing the seams changes the edges
+
+
+def test_maps_that_make_a_poor_pair_are_told_before_the_scene_is_written(tmp_path):
+    def points(name, cells, side):
+        return _map(tmp_path / name, 5e-8 * np.random.default_rng(4).standard_normal((cells, cells)), (side, side))
+
+    tiny, coarse, fine = points("tiny.npz", 10, 1e-6), points("coarse.npz", 64, 5e-6), points("fine.npz", 600, 0.3e-6)
+    for lower, upper, said in (
+        (tiny, coarse, "the map has 10 x 10 points"),
+        (coarse, points("less.npz", 100, 1e-6), "5 um x"),
+        (coarse, fine, "17 times those of the upper map"),
+        (coarse, points("part.npz", 100, 0.9e-6), "of the lower map is used"),
+    ):
+        scene = tmp_path / "mine.toml"
+        done = CliRunner().invoke(command_line(), ["new", "contact", str(scene), "--lower", lower, "--upper", upper])
+        assert said in str(done.exception) + done.output
+        assert scene.exists() == (done.exit_code == 0)
+        scene.unlink(missing_ok=True)
 
 
 def test_cells_finer_than_the_map_have_a_remark(tmp_path):

@@ -24,13 +24,16 @@ from bem.notes.checks import (
 from bem.notes.contact import CONTACT_AT_EDGE
 from bem.notes.note import joined, percent
 from bem.quantities import si
+from bem.scenes.build import AnySurface
 from bem.scenes.checks.contact import hertz_pressure_above_hardness, yield_below_the_surface
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import outcome_check
 from bem.scenes.checks.roughened import roughened
 from bem.scenes.checks.words import numbers, times
+from bem.scenes.common import MeasuredSurface
 from bem.scenes.context import Outcome
 from bem.scenes.cut_off import edge_share, is_cut_off
+from bem.scenes.maps import map_on, map_size
 
 _AT_EDGE = 1e-4
 _AT_CAP = 0.1
@@ -98,7 +101,25 @@ def highest_pressure_at_a_seam(facts: Facts, outcome: Outcome) -> Iterator[Note]
             place = np.unravel_index(int(plane.argmax()), plane.shape)
             beside = ["xy"[axis] for axis in axes if _from_seam(int(place[axis]), plane.shape[axis]) == 0]
             if beside and plane.max() > 0:
-                yield PRESSURE_AT_SEAM(axes=joined(beside))
+                yield PRESSURE_AT_SEAM(axes=joined(beside), action=_instead_of_mirrors(case))
+
+
+def _instead_of_mirrors(case: Case) -> str:
+    """Return what to do about ridges of mirrored maps: no mirror where maps cover the grid and close well."""
+    if case.grid is not None and all(_closes_well(table, case.grid) for table in case.surfaces.values()):
+        return "Leave mirror out; the seams are then closed without ridges."
+    return "Remove long waves with high_pass in the mirrored surfaces, or measure larger maps."
+
+
+def _closes_well(table: AnySurface, grid: Grid) -> bool:
+    """Return True if a surface covers the grid without mirrors and closing its seams alters it little."""
+    if not isinstance(table, MeasuredSurface) or table.mirror == "none":
+        return True
+    plain = table.model_copy(update={"mirror": "none"})
+    shape, spacing = map_size(plain)
+    if any(n * d < side * (1 - 1e-9) for n, d, side in zip(shape, spacing, grid.lengths, strict=True)):
+        return False
+    return not map_on(plain, grid).seams_alter_it
 
 
 def _from_seam(index: int, cells: int) -> int:

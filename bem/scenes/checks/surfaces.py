@@ -7,18 +7,19 @@ from collections.abc import Iterator
 
 from bem.notes import Note
 from bem.notes.checks import MAP_COARSE, SLOPES_LARGE, SURFACE_IS_FORM
+from bem.notes.note import joined
 from bem.notes.scenes import MAP_ALTERED
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.hertz import STEEP
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.surfaces_of import RoughSurface
 from bem.scenes.checks.words import times
+from bem.scenes.common import MeasuredSurface
+from bem.scenes.maps import MOST_SEAM_CHANGE
 
 _FILLED = 0.03
 _KURTOSIS = 10.0
 """Sku above which a map with outliers is doubted; 3 is Gaussian, honed liners have 5 to 9."""
-_SEAMS = 0.3
-"""Change of the heights over their Sq above which a map made periodic is another surface."""
 _POINTS = 32
 _FINER = 1.1
 """Distance of points over cell size above which a remark says that roughness between the points is interpolated."""
@@ -91,9 +92,26 @@ def _fewness(surface: RoughSurface) -> float:
 def seams_that_alter_the_map(facts: Facts) -> Iterator[Note]:
     """A map whose opposite edges differ by more than its roughness is bent to meet itself."""
     for _, case, surface in facts.worst_surfaces(lambda surface: surface.seams / surface.rms_height):
-        if surface.seams > _SEAMS * surface.rms_height:
+        if surface.seams > MOST_SEAM_CHANGE * surface.rms_height:
             where = case.note_place(f"{surface.body}.surface")
-            yield MAP_ALTERED(where, change=surface.seams, height=surface.rms_height, reason="seams-large")
+            action = _instead_of_closing(surface)
+            yield MAP_ALTERED(
+                where, change=surface.seams, height=surface.rms_height, action=action, reason="seams-large"
+            )
+
+
+def _instead_of_closing(surface: RoughSurface) -> str:
+    """Return what to do where closing the seams alters a map: mirrors on the grid as it stands, or less form."""
+    table, grid = surface.table, surface.grid
+    assert isinstance(table, MeasuredSurface)
+    wraps = [axis for axis, on in zip("xy", grid.periodic, strict=True) if on or table.mirror in (axis, "both")]
+    odd = [axis for axis, n in zip("xy", grid.shape, strict=True) if axis in wraps and n % 2]
+    mirror = "both" if len(wraps) > 1 else wraps[0]
+    cells = f" and even numbers of cells along {joined(odd)}" if odd else ""
+    less = [] if table.detrend == "curvature" else ['detrend = "curvature"']
+    less += [] if table.high_pass is not None else ["high_pass to remove long waves"]
+    form = f", or {' or '.join(less)}" if less else ""
+    return f'Set mirror = "{mirror}" in its surface{cells}{form}.'
 
 
 @scene_check

@@ -197,13 +197,13 @@ def _described_map(body: str, table: MeasuredSurface, grid: Grid, content: str) 
     under = [n / (1 + m) * d for n, d, m in zip(grid.shape, grid.spacing, mirrored, strict=True)]
     points = (under[0] / found.spacing[0], under[1] / found.spacing[1])
     scaled, seams = None, 0.0
-    if grid.cells <= 4 * _CELLS:
+    if grid.cells <= maps.MOST_DESCRIBED:
         if table.rms_height is not None:
             plain = table.model_copy(update={"rms_height": None})
             scaled = table.rms_height / float(maps.map_on(plain, grid).heights.std() or math.nan)
         on_grid = maps.map_on(table, grid)
-        description, done = _described(on_grid.heights, grid), on_grid.notes
-        seams = sum(float(note.values["change"]) for note in on_grid.notes if note.values.get("reason") == "seams")
+        description, done = _described(on_grid.heights, grid), on_grid.remarks
+        seams = on_grid.seam_change
     else:
         description = _described(found.heights, found.grid())
         done = ("Sq, slope and correlation length are those of the map as it was measured",)
