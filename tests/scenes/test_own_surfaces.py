@@ -263,9 +263,9 @@ def test_maps_that_make_a_poor_pair_are_told_before_the_scene_is_written(tmp_pat
     tiny, coarse, fine = points("tiny.npz", 10, 1e-6), points("coarse.npz", 64, 5e-6), points("fine.npz", 600, 0.3e-6)
     for lower, upper, said in (
         (tiny, coarse, "the map has 10 x 10 points"),
-        (coarse, points("less.npz", 100, 1e-6), "5 um x"),
+        (coarse, points("less.npz", 100, 1e-6), "20 x 20 points of the coarser one"),
         (coarse, fine, "17 times those of the upper map"),
-        (coarse, points("part.npz", 100, 0.9e-6), "of the lower map is used"),
+        (points("large.npz", 400, 1e-6), points("part.npz", 100, 1e-6), "of the lower map is used"),
     ):
         scene = tmp_path / "mine.toml"
         done = CliRunner().invoke(command_line(), ["new", "contact", str(scene), "--lower", lower, "--upper", upper])
