@@ -396,11 +396,11 @@ def show_remarks(notes: Sequence[str]) -> None:
 
 def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     """The figures of a run."""
-    from bem.plots.report import with_error
+    from bem.plots.report import summary_rows
     from bem.plots.tables import is_list
 
     known = [name for name in headline if summary.get(name) is not None]
-    rows = [with_error(name, summary) for name in known if not is_list(summary[name])]
+    rows = summary_rows(summary, [name for name in known if not is_list(summary[name])])
     rows.append(("status", summary["status"]))
     rows += [("outside the model", text) for text in summary.get("outside_model", ())]
     if remarks := sum(note["level"] == Level.INFO for note in of_summary(summary)):

@@ -413,9 +413,8 @@ SURFACE_ROUGHENED = define(
     "surface-roughened",
     OUTSIDE_MODEL,
     "The worn surface grew rough instead of running in.",
-    "Sq went from {before:si m} to {after:si m}{of}. The criterion and the cell size made holes, and friction, film "
-    "and particles at the end are of these holes. Both surfaces together had Sq {both:si m}; pieces{holes} deeper than "
-    "that leave holes{so}.",
+    "Sq went from {before:si m} to {after:si m}{of}: pieces{holes} deeper than the roughness, Sq {both:si m} of both "
+    "surfaces, leave holes, and friction, film and particles at the end are of these holes{so}.",
     "Compare a finer grid, take fewer cycles, or a criterion that wears by pressure (archard).",
 )
 NO_WEAR_RATE = define(
@@ -446,10 +445,10 @@ FRICTION_SWINGS = define(
     "Friction swings with the place of the moving roughness.",
     reasons={
         "turns": Reason(
-            "The same roughness returns every {turn} cycles. Mean friction is {first:.4g} over the first whole turn and"
-            " {last:.4g} over the last one; friction_initial = {initial:.4g} is that of the first cycle,"
-            " friction_run_in = {run_in:.4g} the mean of the last {averaged}{of}.",
-            "Compare the means over whole turns.",
+            "Mean friction is {first:.4g} over the first whole turn of {turn} cycles and {last:.4g} over the last one;"
+            " friction_initial = {initial:.4g} is that of the first cycle, friction_run_in = {run_in:.4g} the mean of"
+            " the last {averaged}{of}.",
+            "Compare the means over whole turns, after which the same roughness meets again.",
         ),
         "short": Reason(
             "The same roughness returns every {turn} cycles, and the run has {cycles}: the place changes friction as"
@@ -463,7 +462,8 @@ LESS_THAN_A_PARTICLE = define(
     CAUTION,
     "The run wears less than one particle.",
     "All cycles together shed {number:.2g} particles of one body{of}: sizes are those of regions that would come off.",
-    "Raise cycles.count, or read particles as a rate.",
+    "At this rate about {cycles} cycles shed {wanted}: set cycles.count to that, or read the particles per distance"
+    " and per worn volume.",
 )
 PARTICLES_OF_BODY = define(
     "particles-of-body",
@@ -486,7 +486,7 @@ WEAR_STEPS_LONG = define(
     reasons={
         "overshoot": Reason(
             "Each cycle removes too much: {ratio:.2g} times the depth per pressure by which the bodies give way from"
-            " cell to cell, where less than 2 is needed. Depths, roughness and contact are those of the steps.",
+            " cell to cell, where less than 2 is needed; depths, roughness and contact are those of the steps.",
             "Take {share:.2g} times the wear.criterion.distance, and raise cycles.count.",
             OUTSIDE_MODEL,
         ),

@@ -253,8 +253,21 @@ FILM_CELLS_FEW = define(
 INLET_FRICTION = define(
     "inlet-friction",
     INFO,
-    "Friction depends on how far the inlet is filled with oil.",
-    "Taking twice the inlet length would add {added:.2g} to the friction coefficient of {friction:.2g}.",
+    "Friction leaves out the shear of oil in the outer inlet.",
+    "",
+    "Add it by hand where the inlet is filled that far; no key of a scene adds it.",
+    reasons={
+        "film": (
+            "The friction coefficient, {friction:.2g}, is the sliding part of the oil's shear on the film's grid,"
+            " without rolling resistance; oil that fills the inlet up to twice the distance of the grid's edges adds"
+            " {added:.2g}."
+        ),
+        "mixed": (
+            "The friction coefficient, {friction:.2g}, counts asperities and the sliding part of the oil's shear on the"
+            " film's grid, without rolling resistance; oil that fills the inlet up to twice the distance of the grid's"
+            " edges adds {added:.2g}."
+        ),
+    },
 )
 OIL_CREATED = define(
     "oil-created",

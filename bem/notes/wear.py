@@ -42,8 +42,8 @@ THIRD_BODIES_MANY = define(
     reasons={
         "area": "In {full} of {cycles} cycles they cover the whole area, and no more are counted.",
         "load": (
-            "They bear {share:%} of it: little of the surfaces touches, and wear is mostly what particles cut. Each is "
-            "pressed in by itself; bodies do not bend under it."
+            "They bear {share:%} of it: little of the surfaces touches, wear is mostly what particles cut, and each "
+            "particle is pressed in by itself, without bending the bodies."
         ),
     },
 )

@@ -25,6 +25,7 @@ from bem.plots.tables import (
     is_size_of_no_particles,
     name_and_unit,
     origin_table,
+    reported_mean,
     scatters_of,
     shown_values,
     varied_keys,
@@ -71,9 +72,22 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
     return path
 
 
-def summary_rows(summary: dict[str, Any], names: Sequence[str]) -> list[tuple[str, str]]:
-    """Name and value of figures, with their error bars, spelt for people."""
-    return [with_error(name, summary) for name in names]
+def summary_rows(summary: Mapping[str, Any], names: Sequence[str]) -> list[tuple[str, str]]:
+    """Name and value of figures, with their error bars, spelt for people; roughness before and after in one row."""
+    rows = []
+    for name in names:
+        before = next((first for first, last in _CHANGES.items() if last == name and first in names), None)
+        if before is not None:
+            continue
+        text, shown = with_error(name, summary)
+        if (after := _CHANGES.get(name)) in names:
+            text, shown = f"{text} and final", f"{shown} → {with_error(str(after), summary)[1]}"
+        rows.append((text, shown))
+    return rows
+
+
+_CHANGES = {"Sq_initial_nm": "Sq_final_nm"}
+"""Figures that one row shows with a second one, which wear makes of them."""
 
 
 def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
@@ -96,6 +110,7 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
         sign, cells = shown_values(name, [value], varied[name])
         return name, f"{cells[0]} {sign}".rstrip()
     text, shown = spelled(name, value)
+    text += reported_mean(name, summary)
     if is_size_of_no_particles(name, value):
         return text, "-"
     if name == "max_pressure_Pa" and _reaches_hardness(summary):

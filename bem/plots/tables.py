@@ -46,12 +46,25 @@ def name_and_unit(name: str) -> tuple[str, str]:
     return _LABELS.get(words, " ".join(words.split("_")).replace("von mises", "von Mises")), with_signs(unit)
 
 
+def reported_mean(name: str, summary: Mapping[str, Any]) -> str:
+    """Return the words behind a size of particles for the mean that a run reports: ", mean by volume"; "" of others."""
+    mean = summary.get("reported_mean")
+    if not isinstance(mean, str) or not name.startswith("particle_") or _SIZES.match(name) is None:
+        return ""
+    return f", mean by {mean.replace('number_above', 'number above a size')}"
+
+
 _LABELS = {
     "Sq": "Sq of both surfaces",
     "Sq_initial": "Sq of the contact region, initial",
     "Sq_final": "Sq of the contact region, final",
     "worn_depth": "worn depth of the contact region",
     "particles_per_cycle": "particles per cycle of one body",
+    "particles_per_distance": "particles per sliding distance, of one body",
+    "particles_per_volume": "particles per worn volume",
+    "number_mean_radius": "particle equivalent radius, mean by number",
+    "volume_mean_radius": "particle equivalent radius, mean by volume",
+    "scattering_mean_radius": "particle equivalent radius, by light scattering",
     "particles_first_cycle": "particles in the first cycle, of one body",
     "particles_last_cycles": "particles in all of the last cycles, of one body",
     "criterion_wear_rate": "wear volume over load and sliding distance",
@@ -321,6 +334,7 @@ def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str, colum
             _beside(name, summary),
             bars=f"{name}{_ERROR}" in summary,
             scatters=scatters_of(name, summary),
+            mean=reported_mean(name, summary),
         )
         for name in names
         if name not in leading and name not in varied and name not in repeated
@@ -386,12 +400,14 @@ def _column(
     *,
     bars: bool = False,
     scatters: Mapping[str, Any] | None = None,
+    mean: str = "",
 ) -> tuple[str, list[str]]:
     """Head with its unit, and the values in it; not-a-number and nothing are a dash.
 
-    scatters : of each value, by `SCATTERS`.
+    scatters : of each value, by `SCATTERS`. mean : words behind the name, of `reported_mean`.
     """
     words, unit = name_and_unit(name)
+    words += mean
     values = [None if is_size_of_no_particles(name, value) else value for value in values]
     numbers = [v for v in values if isinstance(v, int | float) and not isinstance(v, bool)]
     factor = 1.0

@@ -21,6 +21,7 @@ from bem.grid import Grid
 from bem.lubrication.supply import InletDistance, inside_hertz
 from bem.materials import Body
 from bem.notes import Note
+from bem.notes.lubrication import INLET_FRICTION
 from bem.scenes import build
 from bem.scenes.axes import Axis, changed
 from bem.scenes.common import (
@@ -428,6 +429,24 @@ def in_words_of_the_scene() -> Iterator[None]:
         raise InputError([m.replace("position: ", "film: the film grid ", 1) for m in error.messages]) from None
 
 
-def notes_of_balance(notes: Iterable[Note], of_film: Collection[Note]) -> tuple[Note, ...]:
-    """Return the notes of a balance, those of its film with that place."""
-    return tuple(note.at("film") if note in of_film else note for note in notes)
+def notes_of_balance(
+    notes: Iterable[Note], of_film: Collection[Note], friction: float | None = None, film_share: float = 1.0
+) -> tuple[Note, ...]:
+    """Return the notes of a balance, those of its film with that place.
+
+    The note on the oil's shear beyond the grid of the film is written for the friction coefficient of the whole
+    contact where that is given, and left out where it changes that by less than 2 %.
+
+    friction : coefficient of film and asperities together. film_share : of the film in the load.
+    """
+    from bem.lubrication.point.validity import LARGEST_ERROR
+
+    found = []
+    for note in notes:
+        if note not in of_film:
+            found.append(note)
+        elif note.code != INLET_FRICTION.code or friction is None:
+            found.append(note.at("film"))
+        elif (added := film_share * note.values["added"]) > LARGEST_ERROR * friction:
+            found.append(INLET_FRICTION(added=added, friction=float(friction), reason="mixed"))
+    return tuple(found)

@@ -25,7 +25,9 @@ from bem.scenes.tables.wear_model import WearScenePart
 from bem.scenes.validate import validate
 from bem.surfaces.examples import example_path
 
-KINDS = ("contact", "friction", "running-in", "wear")
+KINDS = ("contact", "friction", "running-in", "running-in-life", "wear")
+_LINE_CONTACTS = ("wear", "running-in-life")
+"""Kinds whose first scene has a cylinder; its load is in proportion to the radius at the same Hertz pressure."""
 _MOST_FILLED = 0.25
 """Share of missing points of a map above which filling them draws most of what touches."""
 _SAME_SPACING = 0.7
@@ -40,6 +42,8 @@ _LEAST_COMMON = 0.1
 """Common area over that of the larger map, below which the pair is remarked on."""
 _MARGIN = 2.2
 """Length of the mesh over the half-width within which the surfaces touch."""
+_MOST_CELLS_ACROSS = 64
+"""Cells along a cylinder of a first mesh of a life, which solves some hundred contacts."""
 _FEWEST_CELLS = 48
 """Cells along an axis of a first mesh, at least."""
 _CELLS_PER_LENGTH = 3
@@ -195,6 +199,10 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, 
     cells, cell = _mesh(length, spacing)
     if kind == "wear":
         data["domain"] = {"cells": cells, "lengths": _length(cells * cell)}
+    elif kind == "running-in-life":
+        data["grid"] = {"shape": [cells, min(cells, _MOST_CELLS_ACROSS)], "spacing": _length(cell)}
+        slid = data["speeds"]["slide_roll_ratio"] * cells * cell  # of a place while the patch passes
+        return OwnStart(data | {"wear": {"law": data["wear"]["law"] | {"distance": f"{1e6 * slid:.3g} um"}}})
     else:
         data["grid"] = {"shape": cells, "spacing": _length(cell)}
     if kind == "friction":
@@ -365,6 +373,9 @@ def _half_width(kind: str, data: Mapping[str, Any]) -> float:
         smooth = scene.smooth_contact()
         assert smooth is not None
         return float(smooth.semi_axes[0])
+    if kind in _LINE_CONTACTS:
+        contact = scene.contact
+        return math.sqrt(4 * max(contact.loads) * contact.radius / (math.pi * contact.width * scene.modulus))
     from bem.scenes.checks.hertz import smooth_contact
 
     radius = scene.contact.point_radii[0]
@@ -402,9 +413,9 @@ def _fitted(
     pressure: half-width in proportion to the radius, load to its square, of a cylinder of the same width to the radius.
     rms_height : Sq of both surfaces together [m].
     """
-    scene = _without_roughness(kind, data)
+    scene, line = _without_roughness(kind, data), kind in _LINE_CONTACTS
     half_width, body = _half_width(kind, data), scene.cylinder if kind == "wear" else scene.contact
-    radius = body.radius if kind == "wear" else body.ball
+    radius = body.radius if line else body.ball
 
     def length(scale: float) -> float:
         return _MARGIN * math.hypot(scale * half_width, math.sqrt(3 * scale * radius * rms_height))
@@ -416,8 +427,8 @@ def _fitted(
     linear, square = 3 * radius * rms_height, half_width**2
     scale = (math.sqrt(linear**2 + 4 * square * (wanted / _MARGIN) ** 2) - linear) / (2 * square)
     smaller = {
-        "radius" if kind == "wear" else "ball": f"{_digits(1e3 * scale * radius)} mm",
-        "loads": [f"{_digits(scale ** (1 if kind == 'wear' else 2) * load)} N" for load in body.loads],
+        "radius" if line else "ball": f"{_digits(1e3 * scale * radius)} mm",
+        "loads": [f"{_digits(scale ** (1 if line else 2) * load)} N" for load in body.loads],
     }
     table = "cylinder" if kind == "wear" else "contact"
     return data | {table: data[table] | smaller}, wanted

@@ -35,11 +35,12 @@ UNITS: dict[str, tuple[str, float, float, float]] = {
     "m_s": ("m/s", 1, 1, 0), "nm_s": ("m/s", 1e9, 1, 0), "percent": ("1", 100, 1, 0), "J": ("J", 1, 1, 0),
     "N_m": ("N/m", 1, 1, 0), "per_m": ("1/m", 1, 1, 0), "Nm": ("N*m", 1, 1, 0),
     "rad": ("rad", 1, 1, 0),
-    "W": ("W", 1, 1, 0), "mm3_Nm": ("m^2/N", 1e9, 1, 0),
+    "W": ("W", 1, 1, 0), "mm3_Nm": ("m^2/N", 1e9, 1, 0), "per_mm3": ("1/m^3", 1, 1e9, 0),
 }  # fmt: skip
 """Units at the end of figures' names: the SI unit, and factor, divisor and offset from it."""
 _WRITTEN = {"C": "degC", "nm_s": "nm/s", "m_s": "m/s", "N_m": "N/m", "Nm": "N m", "per_m": "1/m", "m2": "m^2",
-            "m3": "m^3", "um3": "um^3", "mm3": "mm^3", "mm3_Nm": "mm^3/(N m)", "percent": "%"}  # fmt: skip
+            "m3": "m^3", "um3": "um^3", "mm3": "mm^3", "mm3_Nm": "mm^3/(N m)", "percent": "%",
+            "per_mm3": "1/mm^3"}  # fmt: skip
 
 
 @dataclass(frozen=True)

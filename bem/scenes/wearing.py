@@ -306,6 +306,39 @@ def wears_on_a_track(scene: Any) -> bool:
     return wearing_bodies((scene.lower.build(), scene.upper.build()), scene.wear.wears)[0] == moving
 
 
+def worn_region(scene: Any, strip: FloatArray) -> tuple[int, FloatArray]:
+    """Return the index of the first body that wears, and the fraction of its rows or cells in the contact region.
+
+    strip : fraction of rows (nx,) or cells (nx, ny) in the contact; on a body that moves through the contact the region
+    is the contact's whole track (1, ny).
+    """
+    from bem.wear.outcome import track_of
+
+    worn = wearing_bodies((scene.lower.build(), scene.upper.build()), scene.wear.wears)[0]
+    return worn, track_of(strip) if wears_on_a_track(scene) else strip
+
+
+def particle_rates(scene: Any, result: RunningIn, grid: Grid, number: FloatArray) -> dict[str, float | None]:
+    """Return particles per sliding distance [1/m] and per volume worn from their body [1/m^3] in the settled cycles.
+
+    number : particles of each cycle. None without sliding or without particles.
+    """
+    last = scene.cycles.settled
+    distance = scene.wear.criterion.distance_per_cycle(abs(scene.wear.shift) * grid.spacing[0])
+    settled, count = result.cycles[-last:], float(number[-last:].sum())
+    if scene.wear.particle_criterion is None:
+        particles = scene.sizes.particles(result)
+        volume = float(particles["volume"][particles["cycle"] >= settled["cycle"][0]].sum())
+    else:
+        volume = float(
+            _share_worn(scene, result) * (settled["volume"] - settled["cut_volume"])[number[-last:] > 0].sum()
+        )
+    return {
+        "particles_per_distance": count / (len(settled) * distance) if distance > 0 else None,
+        "particles_per_volume": count / volume if count > 0 and volume > 0 else None,
+    }
+
+
 def stress_below_strength(scene: Any, result: RunningIn, grid: Grid, load: float) -> float | None:
     """Largest equivalent stress [Pa] of the last cycle in the body whose particles are reported; None of criteria that
     ask for more than a stress, in partial slip, and where nothing touches."""

@@ -8,6 +8,8 @@ from bem import Lubricant, solve_mixed
 from bem.friction.result_notes import MATTERS, oil_on_contact_notes
 from bem.notes import Level
 from bem.notes.friction import OIL_ON_CONTACT
+from bem.notes.lubrication import INLET_FRICTION
+from bem.scenes.lubrication import notes_of_balance
 
 CASE = mixed_case(
     100,
@@ -54,3 +56,15 @@ def test_the_note_names_the_worst_of_many_speeds_and_is_silent_where_little_chan
     assert many.values["most"]
     assert (one.level, many.level) == (Level.INFO, Level.CAUTION)
     assert oil_on_contact_notes([(0.0, 0.01)])
+
+
+@pytest.mark.internal
+def test_the_inlet_s_note_is_of_the_printed_friction_coefficient():
+    """0.0066 of a film's coefficient of 0.018 is 1 % of the whole friction where asperities carry most of the load."""
+    own = INLET_FRICTION(added=0.0066, friction=0.018, reason="film")
+    assert notes_of_balance([own], [own], 0.1266, 0.19) == ()
+    (note,) = notes_of_balance([own], [own], 0.04, 0.5)
+    assert note.values["added"] == pytest.approx(0.0033)
+    assert note.values["friction"] == pytest.approx(0.04)
+    assert "0.04, counts asperities" in note
+    assert notes_of_balance([own], [own]) == (own.at("film"),)  # of a kind that prints no friction coefficient

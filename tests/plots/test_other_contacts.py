@@ -15,6 +15,7 @@ from bem.kinds.friction import figures as friction
 from bem.kinds.friction import friction_map
 from bem.kinds.point_film import figures as point_film
 from bem.kinds.running_in import figures as running_in
+from bem.kinds.running_in_life import figures as running_in_life
 from bem.kinds.wear import figures as wear
 from bem.plots import draw as drawing
 from bem.plots.cases import along
@@ -274,6 +275,34 @@ def over_cycles(values):
     return (("load", "cycle"), [values])
 
 
+def test_figures_of_a_life_have_a_margin_above_their_highest_curve():
+    """A load share of one, and a friction that hardly changes, were lines on the upper edge of the axes."""
+    run = SimpleNamespace(
+        dataset=xr.Dataset(
+            {
+                name: ("cycle", values)
+                for name, values in {
+                    "friction_over_cycles": [0.12, 0.12],
+                    "boundary_friction_over_cycles": [0.119, 0.12],
+                    "contact_share": [1.0, 0.99],
+                    "minimum_film_over_cycles": [2e-7, 2e-7],
+                    "lambda_over_cycles": [0.3, 0.3],
+                }.items()
+            }
+            | {"cycle": [1.0, 1000.0]}
+        )
+    )
+    kinds = {kind.name: kind for kind in running_in_life.FIGURES}
+    for name in ("friction-over-life", "film-over-life"):
+        axes = drawn(kinds[name].draw, run).axes
+        assert len(axes) == 2
+        for one in axes:
+            highest = max(line.get_ydata().max() for line in one.lines)
+            assert one.get_ylim()[1] == pytest.approx(1.06 * highest)
+        shown = [text.get_text() for text in axes[0].get_legend().get_texts()]
+        assert len(shown) == sum(len(one.lines) for one in axes)
+
+
 def test_running_in_draws_what_wears_with_a_margin_above_nearly_flat_curves():
     """Axes from zero cut the peaks of a nearly flat curve; roughness, volume and particles were in no picture."""
     run = run_of(
@@ -291,10 +320,16 @@ def test_running_in_draws_what_wears_with_a_margin_above_nearly_flat_curves():
     assert friction_axes.get_ylim()[1] > 1.04 * 0.1403
     assert kinds["wear-over-cycles"].fits(run)
     roughness, volume, particles = drawn(kinds["wear-over-cycles"].draw, run).axes
-    for axes, values in ((roughness, [200, 190, 180]), (volume, [1, 3, 6]), (particles, [2, 0, 1])):
+    for axes, values in ((roughness, [200, 190, 180]), (volume, [0, 1, 3, 6]), (particles, [2, 0, 1])):
         assert axes.lines[0].get_ydata() == pytest.approx(values)
         assert axes.get_ylim() == pytest.approx((0, 1.06 * max(values)))
     assert "(nm)" in roughness.get_ylabel()
+    for name, values in (("Sq_initial", [2.1e-7]), ("Sq_over_cycles", [[2.08e-7, 2.05e-7, 2e-7]])):
+        dimensions = ("load", "cycle")[: np.ndim(values)]
+        run.dataset[name] = (dimensions, values)
+    (line,) = drawn(kinds["wear-over-cycles"].draw, run).axes[0].lines
+    assert line.get_xdata() == pytest.approx([0, 1, 2, 3])
+    assert line.get_ydata() == pytest.approx([210, 208, 205, 200])  # from Sq_initial to Sq_final
     run.dataset["volume_over_cycles"][:] = 0.0
     assert not kinds["wear-over-cycles"].fits(run)
 

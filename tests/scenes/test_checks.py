@@ -618,12 +618,12 @@ OUTCOMES = {
     ),
     "friction_that_swings_with_the_place": (
         "running-in-stribeck",
-        (swinging_outcome(0.002), "0.11 over the first whole turn and 0.11 over the last one"),
+        (swinging_outcome(0.002), "0.11 over the first whole turn of 67 cycles and 0.11 over the last one"),
         swinging_outcome(0.0002),
     ),
     "less_than_one_particle": (
         "running-in-stribeck",
-        (particles_outcome(0.2), "0.8 particles of one body in 1 of 2 loops"),
+        (particles_outcome(0.2), "regions that would come off. At this rate about 100 cycles shed 20"),
         particles_outcome(0.25),
     ),
     "least_area_of_worn_surfaces": (

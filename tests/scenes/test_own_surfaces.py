@@ -23,7 +23,7 @@ from bem.surfaces.examples import FOLDER
 FILES = {"lower": "example/ground-disk.al3d", "upper": "example/polished-pin.x3p"}
 
 
-@pytest.mark.parametrize("kind", ["contact", "friction", "running-in", "wear"])
+@pytest.mark.parametrize("kind", ["contact", "friction", "running-in", "running-in-life", "wear"])
 def test_a_scene_on_own_surfaces_plans_without_a_caution(kind, tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(scene_template(kind, surfaces=FILES, folder=tmp_path))
@@ -55,6 +55,19 @@ def test_a_contact_larger_than_the_maps_shrinks_at_the_same_pressure(tmp_path):
     assert 2 * smaller.semi_axes[0] < build.grid_of(scene.grid).lengths[0] <= 102.4e-6
 
 
+def test_a_life_on_own_surfaces_keeps_the_pressure_and_slides_as_its_patch_passes(tmp_path):
+    """`--lower` was refused for lives."""
+    path = tmp_path / "mine.toml"
+    path.write_text(scene_template("running-in-life", surfaces=FILES, folder=tmp_path))
+    scene, usual = plan_scene(path)[0], plan_scene(start_scene("running-in-life"))[0]
+    smaller, larger = (examine(one).cases[0].smooth for one in (scene, usual))
+    assert smaller.maximum_pressure == pytest.approx(larger.maximum_pressure, rel=0.05)
+    grid = build.grid_of(scene.grid)
+    assert 2 * smaller.semi_axes[0] < grid.lengths[0] <= 102.4e-6
+    assert grid.spacing == pytest.approx((0.8e-6, 0.8e-6))
+    assert scene.wear.distance == pytest.approx(0.05 * grid.lengths[0], rel=0.01)  # at the scene's slide-to-roll ratio
+
+
 def test_own_surfaces_run_in_inside_the_model_with_particles(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(scene_template("running-in", surfaces=FILES, folder=tmp_path))
@@ -66,6 +79,16 @@ def test_own_surfaces_run_in_inside_the_model_with_particles(tmp_path):
     assert 0 < summary["Sq_final_nm"][0] < summary["Sq_initial_nm"][0]
     assert summary["particle_equivalent_radius_nm"][0] > 0
     assert summary["particles_per_cycle"][0] > 0
+    roughness = outcome.variables["Sq_over_cycles"].values.ravel()
+    assert roughness.size == 12
+    assert 1e9 * roughness[-1] == pytest.approx(summary["Sq_final_nm"][0], rel=1e-12)  # one definition
+    assert 1e9 * roughness[0] == pytest.approx(summary["Sq_initial_nm"][0], rel=0.02)  # smooth from cycle to cycle
+    scene = campaign.scene
+    slid = scene.wear.criterion.distance_per_cycle(0.0)
+    (per_metre,) = summary["particles_per_distance_per_m"]
+    assert per_metre == pytest.approx(summary["particles_per_cycle"][0] / slid, rel=1e-12)
+    worn = summary["criterion_wear_rate_mm3_Nm"][0] * scene.load  # mm3 a metre
+    assert summary["particles_per_volume_per_mm3"][0] == pytest.approx(per_metre / worn, rel=1e-9)
     notes = outcome_warnings(examine(campaign.scene), outcome)
     assert [note for note in notes if note.level == Level.OUTSIDE_MODEL] == []
 

@@ -82,7 +82,7 @@ def _stribeck(run: Any, figure: Figure) -> None:
                 axes.fill_between(
                     speed, mean - scatter, mean + scatter, color="0.6", alpha=0.4, linewidth=0, label="inputs"
                 )
-            for key, text, dots in (("boundary_part", "of it boundary", ":"), ("film_part", "of it film", "-.")):
+            for key, text, dots in (("boundary_part", "boundary part", ":"), ("film_part", "film part", "-.")):
                 part = _curves(run, key)[0][1].mean(axis=0)
                 axes.plot(speed, part, color="0.45", linestyle=dots, linewidth=1.1, label=text)
     axes.set_ylabel("friction coefficient")

@@ -119,7 +119,9 @@ def _notes(solution: MixedSolution) -> tuple[Note, ...]:
     from bem.friction.result_notes import oil_notes, oil_on_contact_notes
 
     of_oil = oil_notes([solution.oil]) + oil_on_contact_notes([(solution.friction, solution.oil_on_contact)])
-    return notes_of_balance([note for note in solution.notes if note not in of_oil], solution.film.notes)
+    share = solution.film_load / (solution.film_load + solution.contact_load)
+    own = [note for note in solution.notes if note not in of_oil]
+    return notes_of_balance(own, solution.film.notes, solution.friction, share)
 
 
 def _flow_factors(

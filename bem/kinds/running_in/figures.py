@@ -35,8 +35,8 @@ def _run_in_stribeck(run: Any, figure: Figure) -> None:
     for name, colour, text, how in (
         ("friction_initial", VERMILION, "initial", "--"),
         ("friction_run_in", BLUE, "run in", "-"),
-        ("boundary_friction_part", "0.45", "run in, of it boundary", ":"),
-        ("film_friction_part", "0.45", "run in, of it film", "-."),
+        ("boundary_friction_part", "0.45", "boundary part, run in", ":"),
+        ("film_friction_part", "0.45", "film part, run in", "-."),
     ):
         speed, mean, low, high = along(run, name, "speed")
         marker = {"--": "s", "-": "o"}.get(how)  # the square is seen where both are equal
@@ -70,24 +70,43 @@ def _cycles(name: str, text: str) -> Any:
 def _wear_over_cycles(run: Any, figure: Figure) -> None:
     """Roughness, volume worn up to each cycle and particles of each cycle, one above the other."""
     cycle, rows = run.dataset["cycle"].values, figure.subplots(3, 1, sharex=True)
-    sums = [(group, np.cumsum(values, axis=-1) * 1e18) for group, values in grouped(run, "volume_over_cycles")]
-    heights = grouped(run, "rms_height_over_cycles")
+    sums = [
+        (group, np.insert(np.cumsum(values, axis=-1) * 1e18, 0, 0.0, axis=-1))
+        for group, values in grouped(run, "volume_over_cycles")
+    ]
+    heights, words = _roughness(run)
     factor, unit = prefix(np.concatenate([values.ravel() for _, values in heights]), "m")
     for axes, groups, text in (
-        (rows[0], [(group, factor * values) for group, values in heights], label("Sq of the rows\nin contact", unit)),
+        (rows[0], [(group, factor * values) for group, values in heights], label(words, unit)),
         (rows[1], sums, "worn volume,\nall bodies (µm³)"),
         (rows[2], grouped(run, "particles_over_cycles"), "particles per cycle\nof one body"),
     ):
         for number, (group, values) in enumerate(groups):
             colour = matplotlib.colormaps["viridis"](0.85 * number / max(1, len(groups) - 1))
-            axes.plot(cycle, values.mean(axis=0), color=colour, linewidth=1.1, label=group)
+            shown, places = values.mean(axis=0), cycle
+            if shown.size > cycle.size:  # begins before the first cycle
+                places = np.concatenate([[0], cycle])
+            axes.plot(places, shown, color=colour, linewidth=1.1, label=group)
         axes.set_ylabel(text)
         start_at_zero(axes)
     rows[2].set_xlabel("cycle")
-    rows[2].set_xlim(1, max(2, cycle[-1]))
+    rows[2].set_xlim(0, max(2, cycle[-1]))
     rows[2].xaxis.set_major_locator(MaxNLocator(integer=True))
     if len(sums) > 1:
         rows[0].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
+def _roughness(run: Any) -> tuple[list[tuple[str, Array]], str]:
+    """Return Sq of the contact region [m] of each group of cases, (repetitions, cycles + 1) from before the first
+    cycle on, and its label; of older runs Sq of the rows in contact, (repetitions, cycles)."""
+    if "Sq_over_cycles" not in run.dataset.variables:
+        return list(grouped(run, "rms_height_over_cycles")), "Sq of the rows\nin contact"
+    before, over = grouped(run, "Sq_initial"), grouped(run, "Sq_over_cycles")
+    joined = [
+        (group, np.concatenate([np.reshape(first, (-1, 1)), values], axis=-1))
+        for (_, first), (group, values) in zip(before, over, strict=True)
+    ]
+    return joined, "Sq of the\ncontact region"
 
 
 def _radius_over_speed(run: Any, figure: Figure) -> None:
@@ -101,7 +120,8 @@ def _radius_over_speed(run: Any, figure: Figure) -> None:
             [0.01], [middle], yerr=[0.5e9 * (_MEASURED_RADIUS[1] - _MEASURED_RADIUS[0])], fmt="s", color=VERMILION,
             markersize=4, capsize=3, label="light scattering (thesis, paper D)",
         )  # fmt: skip
-    axes.set_ylabel("equivalent radius (nm)")
+    mean = getattr(run, "summary", {}).get("reported_mean", "")
+    axes.set_ylabel(f"equivalent radius (nm){', mean by volume' if mean == 'volume' else ''}")
     speed_axis(axes, speed)
     axes.legend()
 
@@ -141,7 +161,8 @@ def _frames(run: Any, figure: Figure) -> None:
     """Pressure in the strip in contact at five of the cycles that were kept."""
     frames, extent, highest = _touched_strip(run)
     cycles = run.dataset["frame"].values
-    shown = np.unique(np.geomspace(1, len(frames), min(5, len(frames))).round().astype(int)) - 1
+    # the cycles that are kept lie in a geometric series already
+    shown = np.unique(np.linspace(0, len(frames) - 1, min(5, len(frames))).round().astype(int))
     many = figure.subplots(1, len(shown), sharey=True, squeeze=False)[0]
     for axes, index in zip(many, shown, strict=True):
         image = _pressure_image(axes, frames[index], extent, highest)
@@ -222,7 +243,8 @@ FIGURES = (
     ),
     FigureKind(
         "wear-over-cycles",
-        "Roughness of the wearing surface, volume worn up to each cycle and particles of each cycle.",
+        "Sq of the contact region from before the first cycle to after the last (`Sq_initial` to `Sq_final`), volume "
+        "worn up to each cycle and particles of each cycle.",
         (
             *("cycle", "rms_height_over_cycles", "volume_over_cycles", "particles_over_cycles"),
             *("speed", "hardness"),

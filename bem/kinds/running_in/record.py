@@ -34,6 +34,7 @@ _STRIP = (
     "of the wearing body, the lower one of two, in the contact region "
     "(Hertz' contact; on a body that moves its whole track)"
 )
+_RADIUS = "equivalent radius of the particles of the last cycles.settled cycles"
 _FOLLOWS_CELL = f"{pieces.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
 
 
@@ -59,9 +60,15 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
         float,
         Figure(
             "nm",
-            "equivalent radius of the particles of the last cycles.settled cycles",
+            f"{_RADIUS}, the mean that sizes.report names",
             headline=True,
             no_bar=_FOLLOWS_CELL,
+        ),
+    ]
+    number_mean_radius: Annotated[
+        float,
+        Figure(
+            "nm", f"{_RADIUS}, mean by number: every particle counts once", headline=True, no_bar=pieces.FOLLOWS_CELL
         ),
     ]
     Sq_initial: Annotated[float, Figure("nm", f"Sq {_STRIP}, unworn", headline=True)]
@@ -96,6 +103,26 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     particles_per_cycle: Annotated[
         float, Figure("", f"particles per cycle of one body, {SETTLED}", headline=True, no_bar=pieces.FOLLOWS_CELL)
     ]
+    particles_per_distance: Annotated[
+        float | None,
+        Figure(
+            "per_m",
+            f"particles per distance that the surfaces slide, of one body on the grid, {SETTLED}",
+            headline=True,
+            no_bar=pieces.FOLLOWS_CELL,
+            optional=True,
+        ),
+    ]
+    particles_per_volume: Annotated[
+        float | None,
+        Figure(
+            "per_mm3",
+            f"particles per volume worn from their body, {SETTLED}: one over their mean volume",
+            headline=True,
+            no_bar=pieces.FOLLOWS_CELL,
+            optional=True,
+        ),
+    ]
     particles_first_cycle: Annotated[
         float, Figure("", "particles of the first cycle, of one body", no_bar=pieces.FOLLOWS_CELL)
     ]
@@ -109,17 +136,26 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     contact_temperature: Annotated[float | None, _heated(f"surfaces in contact, mean by pressure, {RUN_IN}")]
     flash_temperature: Annotated[float | None, _heated(f"surfaces in contact, highest, {RUN_IN}")]
     evaluations_per_cycle: Annotated[float, Figure("", "films per cycle", unjudged=True)]
-    number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=pieces.FOLLOWS_CELL)]
-    volume_mean_radius: Annotated[float, Figure("nm", "the same, mean by volume", no_bar=_FOLLOWS_CELL)]
+    volume_mean_radius: Annotated[
+        float, Figure("nm", f"{_RADIUS}, mean by volume: large particles count more", no_bar=_FOLLOWS_CELL)
+    ]
     scattering_mean_radius: Annotated[
-        float, Figure("nm", "the same, z-average of light scattering (sum R^6 / sum R^5)", no_bar=pieces.FEW_LARGEST)
+        float, Figure("nm", f"{_RADIUS}, z-average of light scattering (sum R^6 / sum R^5)", no_bar=pieces.FEW_LARGEST)
     ]
     friction_over_cycles: Annotated[FloatArray, _over("1", "friction coefficient")]
     film_load_over_cycles: Annotated[FloatArray, _over("N", "load carried by the film")]
     minimum_film_over_cycles: Annotated[FloatArray, _over("m", MINIMUM_FILM)]
     contact_share: Annotated[FloatArray, _over("1", "asperity load share")]
+    Sq_over_cycles: Annotated[
+        FloatArray, _over("m", f"Sq {_STRIP}, after each cycle; after the last one it is Sq_final")
+    ]
     rms_height_over_cycles: Annotated[
-        FloatArray, _over("m", "Sq of the worn surface in the rows in contact in each cycle")
+        FloatArray,
+        _over(
+            "m",
+            "Sq of the worn surface in the rows in contact in each cycle; on a body that moves these are other rows in"
+            " every cycle",
+        ),
     ]
     volume_over_cycles: Annotated[
         FloatArray, _over("m^3", "volume worn per cycle, with the cuts of third bodies in both bodies")

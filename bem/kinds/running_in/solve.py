@@ -26,15 +26,21 @@ def wear_down(
     """The wear loop of a scene from these heights [m] on its grid, with times the columns and layers of full heat."""
     from bem.lubrication.oil_scatter import friction_scatter
     from bem.wear.mixed import MixedContact, MixedCycles, shared_film_table
+    from bem.wear.outcome import hertz_fraction, rms_within
 
     sharing, (speeds,), saved = scene.sharing, scene.speeds.build(), context.saved()
     setup = scene.setup(**sharing.model_dump(exclude={"film_shape"}), heat_mesh=heat_mesh)
     frames = [] if saved is None else [np.asarray(frame) for frame in saved["frames"]]
+    roughness = [] if saved is None else [float(value) for value in saved["roughness"]]
     load = scene.contact.on_patch(setup.load, setup.grid.lengths)
     table = shared_film_table(setup, speeds)
     step = MixedContact(setup, speeds, table=table, film_shape=sharing.film_shape)
+    # the same region before, during and after wear, at all speeds
+    strip = hertz_fraction(setup.grid, setup.smooth.half_axes(setup.load))
+    worn, region = wearing.worn_region(scene, strip)
 
     def watch(now: RunningInState) -> dict[str, float]:
+        roughness.append(rms_within(now.heights[worn], region))
         if now.cycle in _frame_cycles(scene.cycles.count) and now.pressure is not None:
             frames.append(now.pressure)
         assert now.sharing is not None
@@ -49,7 +55,7 @@ def wear_down(
         context,
         initial,
         watch=watch,
-        keep=lambda: {"frames": list(frames)},
+        keep=lambda: {"frames": list(frames), "roughness": list(roughness)},
         grid=setup.grid,
         load=load,
         friction=scene.contact.nominal_friction(
@@ -63,10 +69,20 @@ def wear_down(
     with context.timer("films"):
         film_error = step.table.error(float(shared.rows["film_load"][-1]))
         film = step.table.nearest(float(shared.rows["film_load"][-1]))
-    found = _record(scene, initial, result, shared, film_table_error=film_error, pressure_frames=np.array(frames))
+    found = _record(
+        scene,
+        initial,
+        result,
+        shared,
+        strip,
+        film_table_error=film_error,
+        pressure_frames=np.array(frames),
+        Sq_over_cycles=np.array(roughness),
+    )
     found = replace(found, oil_scatter=friction_scatter(film, setup.lubricant, found.film_friction_part))
     tell_of_third_bodies(context, found.third_body_load_share)
-    tell(context, notes_of_balance(shared.notes, shared.film.notes))
+    share = found.film_load / (found.film_load + found.contact_load)
+    tell(context, notes_of_balance(shared.notes, shared.film.notes, found.friction_run_in, share))
     return found
 
 
@@ -76,22 +92,25 @@ def _frame_cycles(count: int) -> list[int]:
 
 
 def _record(
-    scene: RunningInScene, initial: tuple[FloatArray, FloatArray], result: RunningIn, shared: MixedCycles, **own: Any
+    scene: RunningInScene,
+    initial: tuple[FloatArray, FloatArray],
+    result: RunningIn,
+    shared: MixedCycles,
+    strip: FloatArray,
+    **own: Any,
 ) -> RunningInRecord:
-    """The figures of a wear loop and what is kept of it."""
+    """The figures of a wear loop and what is kept of it; `strip` : fraction of rows or cells in Hertz' contact."""
     from bem.wear.mixed_figures import mixed_figures
-    from bem.wear.outcome import hertz_fraction
 
     setup, cycles, rows, averaged = shared.contact.setup, result.cycles, shared.rows, scene.cycles.averaged
     grid, load = setup.grid, scene.contact.on_patch(setup.load, setup.grid.lengths)
-    # the same strip before and after, at all speeds
-    strip = hertz_fraction(grid, setup.smooth.half_axes(setup.load))
     worn = wearing.WornSurface.of(scene, initial, result, grid, load, strip)
     figures = mixed_figures(shared, cycles, averaged)
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("film_load", "minimum_film")}
     over["friction_over_cycles"] = rows["total_friction"].copy()
     over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume")}
     number = over["particles_over_cycles"] = wearing.sizes_over_cycles(scene, result)[1]
+    over |= wearing.particle_rates(scene, result, grid, number)
     over |= pieces.mean_radii(worn.late, scene.sizes, *_RADII)
     hot = scene.thermal != "off"
     return RunningInRecord(

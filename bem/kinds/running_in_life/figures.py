@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLUE, GREEN, VERMILION, map_of
+from bem.plots.style import BLUE, GREEN, VERMILION, map_of, start_at_zero
 
 
 def _axis(run: Any, axes: Axes) -> Any:
@@ -27,30 +27,33 @@ def _friction(run: Any, figure: Figure) -> None:
     axes, data = figure.add_subplot(), run.dataset
     cycle = _axis(run, axes)
     axes.plot(cycle, data["friction_over_cycles"].values, color=BLUE, label="friction")
-    axes.plot(cycle, data["boundary_friction_over_cycles"].values, "--", color="0.45", label="of it boundary")
+    axes.plot(cycle, data["boundary_friction_over_cycles"].values, "--", color="0.45", label="boundary part")
     axes.set_ylabel("friction coefficient")
-    axes.set_ylim(0)
+    start_at_zero(axes)
     other = axes.twinx()
-    other.plot(cycle, data["contact_share"].values, ":", color=VERMILION, label="load on contact")
+    other.plot(cycle, data["contact_share"].values, ":", color=VERMILION, label="asperity load share")
     other.set_ylabel("asperity load share", color=VERMILION)
-    other.set_ylim(0, 1)
-    axes.legend(loc="lower left")
+    other.set_ylim(0, 1.06)  # a share of one is a line below the edge
+    axes.legend(handles=[*axes.lines, *other.lines], loc="lower left")
 
 
 def _wear(run: Any, figure: Figure) -> None:
-    axes, data = figure.add_subplot(), run.dataset
-    cycle = _axis(run, axes)
+    data = run.dataset
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    _axis(run, upper)
+    cycle = _axis(run, lower)
+    upper.set_xlabel("")
     missed = 1e9 * data["depth_error_over_cycles"].values
     for name, colour in (("lower", BLUE), ("upper", VERMILION)):
         depth = 1e9 * data[f"{name}_depth_over_cycles"].values
-        axes.plot(
-            cycle, 1e9 * data[f"{name}_rms_over_cycles"].values, "--", color=colour, label=f"Sq, whole {name} surface"
-        )
-        axes.plot(cycle, depth, color=colour, label=f"depth worn, {name}")
-        axes.fill_between(cycle, depth - missed, depth + missed, color=colour, alpha=0.2, linewidth=0)
-    axes.set_ylabel("Sq and mean depth worn (nm)")
-    axes.set_ylim(0)
-    axes.legend()
+        upper.plot(cycle, 1e9 * data[f"{name}_rms_over_cycles"].values, color=colour, label=f"{name} surface")
+        lower.plot(cycle, depth, color=colour, label=f"{name} surface")
+        lower.fill_between(cycle, depth - missed, depth + missed, color=colour, alpha=0.2, linewidth=0)
+    upper.set_ylabel("Sq of the\nwhole surface (nm)")
+    lower.set_ylabel("mean depth\nworn (nm)")
+    start_at_zero(upper)
+    start_at_zero(lower)
+    upper.legend()
 
 
 def _film(run: Any, figure: Figure) -> None:
@@ -60,12 +63,12 @@ def _film(run: Any, figure: Figure) -> None:
     if "tribofilm_over_cycles" in data.variables:
         axes.plot(cycle, 1e9 * data["tribofilm_over_cycles"].values, color=GREEN, label="tribofilm, mean")
     axes.set_ylabel("thickness (nm)")
-    axes.set_ylim(0)
+    start_at_zero(axes)
     other = axes.twinx()
-    other.plot(cycle, data["lambda_over_cycles"].values, "--", color=VERMILION)
+    other.plot(cycle, data["lambda_over_cycles"].values, "--", color=VERMILION, label="lambda ratio")
     other.set_ylabel("lambda ratio,\nunder the whole load", color=VERMILION)
-    other.set_ylim(0)
-    axes.legend(loc="center left")
+    start_at_zero(other)
+    axes.legend(handles=[*axes.lines, *other.lines], loc="center left")
 
 
 def _jumps(run: Any, figure: Figure) -> None:
@@ -73,12 +76,12 @@ def _jumps(run: Any, figure: Figure) -> None:
     place = data["step_cycle"].values
     axes.loglog(place, data["step_length"].values, ".-", color=BLUE)
     axes.set_xlabel("cycles")
-    axes.set_ylabel("cycles of a jump", color=BLUE)
+    axes.set_ylabel("cycles in a jump", color=BLUE)
     other = axes.twinx()
     other.semilogx(place, 100 * data["step_error"].values, ".-", color=VERMILION, linewidth=0.8)
     other.axhline(100 * run.scene["life"]["tolerance"], color=VERMILION, linestyle=":", linewidth=0.8)
-    other.set_ylabel("its error over what wore in it (%)", color=VERMILION)
-    other.set_ylim(0)
+    other.set_ylabel("error over the wear in the jump (%)", color=VERMILION)
+    start_at_zero(other)
 
 
 def _particles(run: Any, figure: Figure) -> None:
@@ -94,7 +97,7 @@ def _pits(run: Any, figure: Figure) -> None:
     cycle = _axis(run, axes)
     axes.plot(cycle, 100 * run.dataset["micropitted_over_cycles"].values, color=VERMILION)
     axes.set_ylabel("micropitted share (%)")
-    axes.set_ylim(0)
+    start_at_zero(axes)
 
 
 def _damage(run: Any, figure: Figure) -> None:
@@ -114,10 +117,10 @@ FIGURES = (
     ),
     FigureKind(
         "wear-over-life",
-        "Roughness and mean depth worn of both surfaces over the cycles; bands are what the jumps leave open.",
+        "Roughness and mean depth worn of both surfaces over the cycles; bands are the error of the cycle jumps.",
         ("cycle", "lower_depth_over_cycles", "depth_error_over_cycles", "lower_rms_over_cycles"),
         _wear,
-        _WIDE,
+        (6.0, 5.0),
     ),
     FigureKind(
         "film-over-life",

@@ -285,7 +285,7 @@ def _on_grid(film: PointFilmSolution, thickness: FloatArray, case: ScaledCase, l
         notes.append(FILM_CELLS_FEW(limit=STEEPEST, reason="constriction"))
     added = inlet_shear(film, case)
     if added > LARGEST_ERROR * film.friction * film.load:
-        notes.append(INLET_FRICTION(added=added / film.load, friction=float(film.friction)))
+        notes.append(INLET_FRICTION(added=added / film.load, friction=float(film.friction), reason="film"))
     errors = (
         (film.central_thickness_error, film.central_thickness),
         (film.minimum_thickness_error, film.minimum_thickness),

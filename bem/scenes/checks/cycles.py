@@ -196,7 +196,12 @@ def less_than_one_particle(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     totals = over.values.reshape(-1, over.values.shape[-1]).sum(axis=-1)
     few = [float(total) for total in totals if 0 < total < 1]
     if few:
-        yield LESS_THAN_A_PARTICLE(number=max(few), of=_of(len(few), len(totals)))
+        cycles = round(float(f"{over.values.shape[-1] * _COUNTABLE / max(few):.2g}"))
+        yield LESS_THAN_A_PARTICLE(number=max(few), of=_of(len(few), len(totals)), cycles=cycles, wanted=_COUNTABLE)
+
+
+_COUNTABLE = 20
+"""Number of particles whose cycles are estimated; their scatter is then about a fifth, as of any count."""
 
 
 def _drifting(facts: Facts, outcome: Outcome) -> list[str]:
