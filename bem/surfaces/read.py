@@ -30,6 +30,7 @@ from bem.quantities import with_prefixes
 from bem.surfaces.examples import example_path
 from bem.surfaces.filter import DETRENDINGS, LEAST_SPIKE, despike, detrend, fill_missing, level_lines
 from bem.surfaces.formats import SurfaceFormat, format_of
+from bem.surfaces.point_list import list_of_points
 from bem.surfaces.surface import Surface
 
 METRES = {name: float(f"1e{power}") for name, power in with_prefixes("m", "pnumk").items()} | {
@@ -50,6 +51,9 @@ _SAME = 0.01
 """Of a spacing: as people round it."""
 
 _TEXT = (".txt", ".csv", ".dat")
+
+_MOST_HEADINGS = 50
+"""Lines of words above the numbers of a text."""
 
 _HEAD = 1 << 16
 """Bytes from which is judged what a file is."""
@@ -87,8 +91,10 @@ def read_surface(
     path : a file of any instrument format that SurfaceTopography reads (.al3d, .di, .opd, .x3p, .tmd, .sur, .gwy, ...);
         or a plain map: .npz with `heights` (nx, ny) [m] and `spacing` [m], as `write_surface` writes; .npy; or a table
         of numbers in .txt, .csv or .dat, one line for each ix, with `spacing` given (in .asc, as instruments write
-        it, a line is one iy); a file of a format of your own (`bem.surfaces.formats`); or `example/NAME`, one of the
-        package's own (`bem.surfaces.examples`).
+        it, a line is one iy), or a list of points x, y, z on a regular grid in any order, with the units in the names
+        of its columns, such as x [um], or with `spacing` given (titles above numbers are passed over); a file of a
+        format of your own (`bem.surfaces.formats`); or `example/NAME`, one of the package's own
+        (`bem.surfaces.examples`).
     detrend : "plane" (least squares over the points measured), "curvature" (second-order polynomial) or "none".
     fill : True: missing points are filled by the harmonic surface through their neighbours (at most half of the
         map); False: a map with missing points is refused.
@@ -139,8 +145,11 @@ def read_surface(
         _check_unit(file, "m", height_unit)
     elif file.suffix.lower() == ".npy":
         heights, cell, notes = _read_npy(file), None, {"format": "npy"}
+    elif (listed := _read_list(file, spacing, height_unit)) is not None:
+        heights, cell, notes = listed
+        height_unit = None
     elif file.suffix.lower() in _TEXT and spacing is not None:
-        heights, cell, notes = _read_table(file), None, {"format": "table of numbers"}
+        heights, cell, notes = _read_table(file)[0], None, {"format": "table of numbers"}
     else:
         if spacing is None and _is_plain_table(file):
             raise _without_spacing(file)
@@ -397,13 +406,72 @@ def _check_header(file: Path, name: str, stream: IO[bytes], size: int | None = N
         raise SurfaceFileError(f"{file}: claims {shape} points, more than it holds; the file is truncated or damaged")
 
 
-def _read_table(file: Path) -> FloatArray:
-    """A table of numbers, a row a line; memory beyond the numbers is that of one block of a line."""
-    values, rows, width, separator, line = array("d"), 0, None, None, ""
+def _read_list(
+    file: Path, spacing: tuple[float, float] | None, height_unit: str | None
+) -> tuple[FloatArray, tuple[float, float] | None, dict[str, Any]] | None:
+    """A list of points as heights [m], spacing [m] and notes; None for what is no text of three columns.
+
+    Units come from the names of the columns, such as x [um]; without them steps are as given and heights in metres.
+    """
+    if file.suffix.lower() not in (*_TEXT, ".xyz") or _columns(file) != 3:
+        return None
+    table, header = _read_table(file)
     try:
-        with file.open(encoding="utf-8-sig") as stream:
+        found = list_of_points(table, header)
+    except SurfaceFileError as problem:
+        raise SurfaceFileError([f"{file}: {message}" for message in problem.messages]) from problem
+    if found is None:
+        return None
+    *sides, unit = (METRES.get(name) for name in found.units)
+    cell = None
+    if None not in sides:
+        cell = found.steps[0] * (sides[0] or 0.0), found.steps[1] * (sides[1] or 0.0)
+    elif spacing is None:
+        raise _without_spacing(file)
+    elif abs(spacing[0] / spacing[1] / (found.steps[0] / found.steps[1]) - 1) > _SAME:
+        raise SurfaceFileError(
+            f"{file}: its points are {found.steps[0]:.4g} apart along x and {found.steps[1]:.4g} along y, which is "
+            "another ratio than that of the given spacing"
+        )
+    if unit is not None:
+        _check_unit(file, found.units[2], height_unit)
+    elif height_unit is not None:
+        unit = METRES[height_unit]
+    elif spacing is None:
+        raise UnstatedScaleError(
+            f"{file}: does not say in which unit its heights are; give height_unit, or name its column such as z [nm]"
+        )
+    return found.heights * (unit or 1.0), cell, {"format": "list of points"}
+
+
+def _columns(file: Path) -> int:
+    """Number of columns of the first line of a text that holds nothing but numbers; zero without one."""
+    with file.open("rb") as stream:
+        head = stream.read(_HEAD)
+    lines = [re.split(rb"[\s;,]+", line.strip(b" \t\r;,")) for line in head.splitlines() if line.strip()]
+    return next((len(words) for words in lines if all(_is_number(word) for word in words)), 0)
+
+
+def _is_heading(line: str) -> bool:
+    """Return True if most words of a line are no numbers."""
+    words = [word for word in re.split(r"[\s;,]+", line[:_HEAD].strip()) if word]
+    return sum(_is_number(word.encode("utf-8", "replace")) for word in words) < 0.5 * len(words)
+
+
+def _read_table(file: Path) -> tuple[FloatArray, list[str]]:
+    """A table of numbers, a row a line, and the lines of words above it; memory beyond the numbers is that of one block
+    of a line."""
+    values, rows, width, separator, line = array("d"), 0, None, None, ""
+    header: list[str] = []
+    try:
+        with file.open(encoding="utf-8-sig", errors="surrogateescape") as stream:
             for line in stream:
-                if not line.strip() or line.lstrip().startswith(("#", "%")):
+                comment = line.lstrip().startswith(("#", "%"))
+                heads = width is None and len(header) < _MOST_HEADINGS
+                if heads and (comment or (_is_heading(line) and not _has_decimal_commas(line))):
+                    header.append(line[:_HEAD])
+                    continue
+                if not line.strip() or comment:
                     continue
                 if width is None:
                     separator = next((s for s in (";", "\t", ",") if s in line), None)
@@ -428,14 +496,8 @@ def _read_table(file: Path) -> FloatArray:
             ) from problem
         raise _unreadable(file, problem) from problem
     if width is None:
-        raise SurfaceFileError(f"{file}: holds no numbers")
-    table = np.frombuffer(values, dtype=np.float64).reshape(rows, width)
-    if _lists_points(table):
-        raise SurfaceFileError(
-            f"{file}: its three columns are x, y and z of points on a grid, not a map; write a table of the heights, "
-            "one line for each x"
-        )
-    return table
+        raise SurfaceFileError(f"{file}: unreadable: it holds no numbers")
+    return np.frombuffer(values, dtype=np.float64).reshape(rows, width), header
 
 
 def _has_decimal_commas(line: str) -> bool:
@@ -456,14 +518,6 @@ def _blocks_of_words(line: str, separator: str | None) -> Iterator[list[str]]:
         if cut < 0:
             return
         start = cut + 1
-
-
-def _lists_points(table: FloatArray) -> bool:
-    """Return True if three columns name each place of a grid of at least 2 x 2 points once, with a height."""
-    if table.shape[1] != 3 or len(table) < 4:
-        return False
-    sides = [len(np.unique(table[:, k])) for k in (0, 1)]
-    return min(sides) > 1 and math.prod(sides) == len(table) == len(np.unique(table[:, :2], axis=0))
 
 
 def _as_floats(file: Path, array: np.ndarray) -> FloatArray:

@@ -59,7 +59,7 @@ def test_lines_longer_than_a_block_are_read_right(tmp_path, separator):
 def test_empty_fields_are_missing_points(tmp_path, end):
     path = tmp_path / "holes.csv"
     path.write_text(f"# heights\n1;;3;4{end or chr(10)}5;6;7;{end}")
-    table = read._read_table(path)
+    table = read._read_table(path)[0]
     np.testing.assert_array_equal(table, [[1, np.nan, 3, 4], [5, 6, 7, np.nan]])
 
 
@@ -69,7 +69,7 @@ def test_a_block_that_ends_at_a_separator_loses_no_field(tmp_path, cell):
     count = 3 * read._HEAD // len(cell)
     path = tmp_path / "edge.txt"
     path.write_text(f"{cell * count}\n{cell * count}\n")
-    assert read._read_table(path).shape == (2, count + 1)
+    assert read._read_table(path)[0].shape == (2, count + 1)
 
 
 @pytest.mark.parametrize(

@@ -303,8 +303,7 @@ def test_a_list_of_points_is_not_taken_for_a_map_three_points_wide(tmp_path):
     x, y = np.meshgrid(np.arange(4.0), 0.5 * np.arange(3), indexing="ij")
     file = tmp_path / "points.txt"
     np.savetxt(file, np.column_stack([x.ravel(), y.ravel(), np.sin(x * y).ravel()]))
-    with pytest.raises(SurfaceFileError, match="x, y and z"):
-        read_surface(file, spacing=(1e-6, 1e-6), height_unit="nm")
+    assert read_surface(file, spacing=(2e-6, 1e-6), height_unit="nm").heights.shape == (4, 3)
     narrow = np.random.default_rng(0).normal(size=(12, 3))
     np.savetxt(file, narrow)
     assert read_surface(file, spacing=(1e-6, 1e-6), height_unit="nm").heights.shape == (12, 3)
