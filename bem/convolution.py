@@ -11,7 +11,9 @@ with zero padding (Liu, Wang and Liu 2000); the kernels have sources of their ow
 3. Friction. The traction friction x pressure adds the coefficients of the tangential load, lower body minus upper, if
    traction changes the normal gap (`couples`: Dundurs' beta is not zero, or layers differ).
 4. Spectrum (`bem.transforms.kernel_spectra`), padded with zeros along free axes. Every kernel is even or odd along each
-   axis, so its spectrum is a quarter array of real numbers. Spectra are cached by grid and elastic constants, within a
+   axis, so its spectrum is a quarter array of real numbers. That of pressure is even; a crystal that does not respond
+   alike on both sides of the x axis adds one that is odd along both axes, since every kernel of pressure is the same at
+   opposite offsets (Betti's theorem). Spectra are cached by grid and elastic constants, within a
    limit on memory, and shared by all operators (`cached_spectra`). Cost: a transform for each kernel of step 2, once
    for each grid, coarser ones included; none on doubly periodic grids, whose responses are the spectrum.
 5. Scaling. The spectrum is divided by `unit`, a power of two [m/Pa], so that it is of order one: single precision
@@ -37,10 +39,10 @@ from numpy.typing import DTypeLike, NDArray
 from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.grid import Grid
-from bem.kernels.coefficients import Load, surface_coefficients
+from bem.kernels.coefficients import Load, odd_surface_coefficients, surface_coefficients
 from bem.kernels.layered import frequency_response
 from bem.kernels.loads import refuse_special_surface
-from bem.kernels.spectral import surface_response
+from bem.kernels.spectral import odd_surface_response, surface_response
 from bem.materials import Body, Material
 from bem.numerics.cache import KeptValues, Sized, bytes_of
 from bem.transforms import (
@@ -100,8 +102,8 @@ class KernelCount:
 COUNT = KernelCount()
 """Kernels evaluated by this process (spectra taken from the cache are not counted)."""
 
-EVEN, ODD_IN_X = (1, 1), (-1, 1)
-"""Parity (in x, in y) of the kernel of pressure, and of that of traction along x."""
+EVEN, ODD_IN_X, ODD_IN_BOTH = (1, 1), (-1, 1), (-1, -1)
+"""Parity (in x, in y) of the kernel of pressure, of that of traction along x, and of what crystals add to the first."""
 
 
 @dataclass(frozen=True)
@@ -111,16 +113,19 @@ class KernelSpectra:
     even : spectrum of the kernel of pressure, with the local compliance.
     odd : imaginary part of the spectrum of the kernel of friction x traction; None if it does not couple.
     unit : power of two [m/Pa].
+    odd_in_both : minus the spectrum of the part of the kernel of pressure that is odd along both axes, as
+        `kernel_spectrum` gives it; None if both bodies respond alike on both sides of the x axis. Without friction.
     """
 
     even: FloatArray
     odd: FloatArray | None
     unit: float
+    odd_in_both: FloatArray | None = None
 
     @property
     def nbytes(self) -> int:
         """Memory [bytes]."""
-        return self.even.nbytes + (0 if self.odd is None else self.odd.nbytes)
+        return sum(part.nbytes for part in (self.even, self.odd, self.odd_in_both) if part is not None)
 
 
 _SPECTRA = KeptValues()
@@ -221,6 +226,22 @@ def _spectrum_of_pair(grid: Grid, bodies: tuple[Body, ...], load: Load) -> Float
     return total
 
 
+def _odd_spectrum_of_pair(grid: Grid, bodies: tuple[Body, ...]) -> FloatArray | None:
+    """Compute `KernelSpectra.odd_in_both` [m/Pa] of both bodies; None if both respond alike on both sides of x."""
+    padded = padded_shape(grid.shape, grid.periodic)
+    total: FloatArray | None = None
+    for body in bodies:
+        if all(grid.periodic):
+            response = odd_surface_response(grid, body)
+            spectrum = None if response is None else np.ascontiguousarray(-response[: padded[0] // 2 + 1].T)
+        else:
+            table = odd_surface_coefficients(grid, body)
+            spectrum = None if table is None else kernel_spectrum(table, padded, ODD_IN_BOTH)
+        if spectrum is not None:
+            total = spectrum if total is None else total + spectrum
+    return total
+
+
 def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float, compliance: float) -> KernelSpectra:
     """Return the kernel spectra of the pair from the cache, or compute them."""
     coupled = friction != 0 and couples(bodies)
@@ -234,7 +255,8 @@ def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float, compliance: 
         unit = 2.0 ** round(math.log2(largest)) if largest > 0 else 1.0
         even /= unit
         odd = _spectrum_of_pair(grid, bodies, Load.TANGENTIAL) * (friction / unit) if coupled else None
-        return KernelSpectra(even, odd, unit)
+        odd_in_both = _odd_spectrum_of_pair(grid, bodies)
+        return KernelSpectra(even, odd, unit, None if odd_in_both is None else odd_in_both / unit)
 
     constants = tuple(elastic_constants(body) for body in bodies)
     key = (grid, constants, friction if coupled else 0.0, compliance)
@@ -292,7 +314,7 @@ class ScaledConvolution:
 
 @dataclass(frozen=True)
 class _EvenPart:
-    """Spectra on a grid without their odd part."""
+    """Spectra on a grid without the part of friction."""
 
     whole: Callable[[Grid], KernelSpectra]
 
@@ -381,7 +403,9 @@ class DisplacementOperator:
             parts = [(self._spectra.even, EVEN, 1.0)]
             if self._spectra.odd is not None:
                 parts.append((self._spectra.odd, ODD_IN_X, 1.0))
-            self._multipliers[key] = multiplier(parts).astype(dtype)
+            if self._spectra.odd_in_both is not None:
+                parts.append((self._spectra.odd_in_both, ODD_IN_BOTH, 1.0))
+            self._multipliers[key] = multiplier(parts, self.padded[0]).astype(dtype)
         transform = transform_of(self.grid.shape, self.padded, dtype)
         return ScaledConvolution(transform, self._multipliers[key], self.count, self.weight)
 
@@ -389,22 +413,26 @@ class DisplacementOperator:
         """Return the inverse of the scaled operator on a doubly periodic grid, with friction; its mean mode is zero."""
         key = (np.dtype(dtype).char, "inverse")
         if key not in self._multipliers:
-            even, odd = self._spectra.even, self._spectra.odd
+            even, odd, odd_in_both = self._spectra.even, self._spectra.odd, self._spectra.odd_in_both
             # positive for all waves but the mean: the bound only guards against round-off in the response of layers
             floor = 1e-3 * float(even.min(initial=math.inf, where=even > 0))
             bounded = np.maximum(np.abs(even), floor)
-            if odd is None:
+            if odd_in_both is not None:
+                # 1 / (S + T) and 1 / (S - T) at both signs of kx: S / (S^2 - T^2) and -T / (S^2 - T^2)
+                inverse = np.divide(1.0, bounded**2 - odd_in_both**2, out=np.zeros_like(even), where=even != 0)
+                parts = [(inverse * bounded, EVEN, 1.0), (inverse * odd_in_both, ODD_IN_BOTH, -1.0)]
+            elif odd is None:
                 parts = [(np.divide(1.0, bounded, out=np.zeros_like(even), where=even != 0), EVEN, 1.0)]
             else:
                 # 1 / (S + iA) = (S - iA) / (S^2 + A^2)
                 inverse = np.divide(1.0, bounded**2 + odd**2, out=np.zeros_like(even), where=even != 0)
                 parts = [(inverse * bounded, EVEN, 1.0), (inverse * odd, ODD_IN_X, -1.0)]
-            self._multipliers[key] = multiplier(parts).astype(dtype)
+            self._multipliers[key] = multiplier(parts, self.padded[0]).astype(dtype)
         transform = transform_of(self.grid.shape, self.padded, dtype)
         return ScaledConvolution(transform, self._multipliers[key], self.count, self.weight)
 
     def smooth_part(self, fine: DisplacementOperator, near: float) -> ScaledConvolution | None:
-        """Return the symmetric part with the constant `near` taken off its spectrum, in single precision.
+        """Return the even part with the constant `near` taken off its spectrum, in single precision.
 
         The constant stands for the local response, which the finer grid computes itself. The result maps the finer
         operator's pressure, summed over each cell of this grid, to displacements in units of the finer operator.
@@ -428,9 +456,10 @@ class DisplacementOperator:
         return {}
 
     def near_field(self, radius: int) -> FloatArray:
-        """Return the influence coefficients of the symmetric part over `unit` up to `radius` cells away.
+        """Return the influence coefficients of the even part over `unit` up to `radius` cells away.
 
         (2 radius + 1, 2 radius + 1), offset zero in the middle; from the spectrum, so with the images of periodic axes.
+        Preconditioners take it for the whole, of which it is the mean with its mirror image.
         """
         if radius not in self._near_fields:
             px, py = self.padded
@@ -502,7 +531,7 @@ def displacement_operator(
     Raises
     ------
     InputError : not a Grid, not one or two bodies, a friction or compliance that is not finite, friction on a crystal
-        or a surface under tension, a crystal whose surface does not respond alike on both sides of the x axis.
+        or a surface under tension.
     """
     messages = []
     if not isinstance(grid, Grid):
@@ -519,6 +548,4 @@ def displacement_operator(
     for body in pair:
         if friction != 0:
             refuse_special_surface(body, "displacements under friction")
-        if body.material.stiffness is not None:
-            body.material.stiffness.check_mirror_symmetric()
     return DisplacementOperator(grid, tuple(pair), float(friction), compliance=float(compliance))

@@ -172,20 +172,6 @@ class Stiffness:
         even, odd = self.harmonics
         return float(np.abs(odd).sum()) <= 1e-9 * float(even[0])
 
-    def check_mirror_symmetric(self) -> None:
-        """Refuse an orientation whose surface does not respond alike on both sides of the x axis.
-
-        Raises
-        ------
-        InputError : such an orientation.
-        """
-        if not self.mirror_symmetric:
-            raise InputError(
-                "stiffness: the surface does not respond alike on both sides of the x axis; turn the crystal so that "
-                "x or y lies in a mirror plane (cubic: normal [0, 0, 1] with along_x [1, 0, 0] or [1, 1, 0], "
-                "normal [1, 1, 1] with along_x [1, -1, 0])"
-            )
-
     def surface_compliance(self, angles: FloatArray) -> FloatArray:
         """Return A [1/Pa] at angles of the wavevector from x (n,) [rad]: u = A p / q."""
         points = _FEWEST

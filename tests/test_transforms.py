@@ -131,10 +131,39 @@ def test_even_and_odd_parts_add_to_one_multiplier():
 
 
 @pytest.mark.internal
+@pytest.mark.parametrize(
+    ("shape", "padded"), [((6, 5), (12, 10)), ((6, 5), (11, 9)), ((8, 7), (8, 7)), ((8, 6), (8, 6))]
+)
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+def test_kernels_even_and_odd_along_both_axes_add_to_a_whole_multiplier(shape, padded, dtype, one_thread):
+    rng = np.random.default_rng(3)
+    field = rng.standard_normal(shape).astype(dtype)
+    halves = [rng.standard_normal((padded[0] // 2 + 1, padded[1] // 2 + 1)) for _ in range(2)]
+    parts = [
+        (transforms.kernel_spectrum(c, padded, p), p, 1.0) for c, p in zip(halves, ((1, 1), (-1, -1)), strict=True)
+    ]
+    kernel = wrapped(halves[0], padded, (1, 1)) + wrapped(halves[1], padded, (-1, -1))
+    expected = np.fft.irfft2(np.fft.rfft2(field, s=padded) * np.fft.rfft2(kernel), s=padded)[: shape[0], : shape[1]]
+    transform, factor = transforms.PaddedTransform(shape, padded, dtype), transforms.multiplier(parts, padded[0])
+    tiny = ROUND_OFF[dtype] * np.abs(kernel).sum() * np.abs(field).max()
+    for number in (1, 2):
+        threads.set_threads(number)
+        assert np.abs(transform.convolve(field, factor) - expected).max() <= tiny
+    assert np.abs(transform.inverse(transform.forward(field), factor) - expected).max() <= tiny
+    cells = np.arange(0, field.size, 3)
+    few = np.zeros_like(field)
+    few.flat[cells] = field.flat[cells]
+    of_cells = transform.convolve_cells(cells, field.flat[cells], factor, np.empty(shape, dtype))
+    assert np.abs(of_cells - transform.convolve(few, factor)).max() <= tiny
+
+
+@pytest.mark.internal
 def test_parts_of_different_parity_are_refused():
     quarter = np.ones((3, 3))
     with pytest.raises(InputError, match="parity"):
         transforms.multiplier([(quarter, (-1, 1), 1.0), (quarter, (1, -1), 1.0)])
+    with pytest.raises(InputError, match="parity"):  # without the length of the transforms
+        transforms.multiplier([(quarter, (1, 1), 1.0), (quarter, (-1, -1), 1.0)])
 
 
 @pytest.mark.internal

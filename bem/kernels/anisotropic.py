@@ -8,14 +8,17 @@ is a delta function across the direction of the point, so that a unit point forc
 
 the m-th harmonic changes its sign with m. An isotropic solid has A = 2/E* and g = 1/(pi E*).
 
+The part a_m is even along each axis, the part b_m is odd along both; each has a table of its own. The latter is zero
+where the x axis is a line of mirror symmetry of the response.
+
 1. Near the cell: a rectangle from the point to a corner (x, y) contributes x P(theta) + y Q(theta), with the integrals
-   P of g / cos from 0 to theta and Q of g / sin from theta to pi/2, in closed form (`_Corner`), summed over corners.
+   P of g / cos from 0 to theta and Q of g / sin from theta to pi/2, in closed form (`_Corner`, `_OddCorner`), summed
+   over corners.
 2. Far from it: Gauss rules of the point force (`cell_integrals`).
 3. One periodic axis: an isotropic surface that is as stiff under a line load along that axis carries the mean over the
    period and the logarithm of the distance. The difference of both has g(pi/2) = 0, so that it decays like 1 / k^3
-   along the axis; it is summed over the images (`cell_integrals.image_sum`).
-
-Kernels here are even along each axis: the x axis must be a line of mirror symmetry of the response (b_m = 0).
+   along the axis; it is summed over the images (`cell_integrals.image_sum`). The odd part has no mean over the period,
+   and images on both sides together decay like 1 / k^3.
 
 The formula of g: J. R. Willis, J. Mech. Phys. Solids 14 (1966) 163, and J. R. Barber & M. Ciavarella, J. Tribol. 136
 (2014) 031402; not read, derived here. Verified in tests/kernels/test_anisotropic.py: relative error below 1e-12.
@@ -47,34 +50,66 @@ def angular_function(stiffness: Stiffness, angles: FloatArray) -> FloatArray:
 
 
 def surface_response(kx: FloatArray, ky: FloatArray, material: Material) -> FloatArray:
-    """Return u / p [m/Pa] of harmonic pressures, kx and ky broadcast together [rad/m]; 0 at the mean mode.
+    """Return the part of u / p [m/Pa] of harmonic pressures that is even in kx and ky; 0 at the mean mode.
 
-    Raises
-    ------
-    InputError : a response that is not symmetric about x.
+    kx, ky : broadcast together [rad/m].
     """
-    even = _even_harmonics(material)
-    q = np.hypot(kx, ky)
-    safe = np.where(q > 0, q, 1.0)
-    cosine = (kx - ky) * (kx + ky) / safe**2
-    return np.where(q > 0, _clenshaw(even, cosine) / safe, 0.0)
+    q, cosine, _ = _polar(kx, ky)
+    return np.where(q > 0, _clenshaw(_harmonics(material)[0], cosine) / np.where(q > 0, q, 1.0), 0.0)
+
+
+def odd_surface_response(kx: FloatArray, ky: FloatArray, material: Material) -> FloatArray:
+    """Return the part of u / p [m/Pa] of harmonic pressures that is odd in kx and in ky; see `surface_response`."""
+    q, cosine, sine = _polar(kx, ky)
+    return np.where(q > 0, _clenshaw_sines(_harmonics(material)[1], cosine, sine) / np.where(q > 0, q, 1.0), 0.0)
+
+
+def _polar(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the distance, and cosine and sine of twice the angle from x (0 at the origin)."""
+    distance = np.hypot(x, y)
+    safe = np.where(distance > 0, distance, 1.0)
+    return distance, (x - y) * (x + y) / safe**2, 2 * (x / safe) * (y / safe)
 
 
 def surface_table(grid: Grid, material: Material) -> FloatArray:
     """Return the normal surface displacement [m/Pa] at offsets (i dx, j dy) from a cell under unit pressure, (nx, ny).
 
-    On a grid with one periodic axis the images of the cell are summed; the datum is that of `semi_periodic`.
-
-    Raises
-    ------
-    InputError : a response that is not symmetric about x.
+    The part that is even along each axis. On a grid with one periodic axis the images of the cell are summed; the datum
+    is that of `semi_periodic`.
     """
-    even = _even_harmonics(material)
+    even = _harmonics(material)[0]
     if grid.periodic[0]:  # with the axes exchanged: theta becomes pi/2 - theta
         turned = even * (-1.0) ** np.arange(len(even))
-        swapped = Grid(grid.shape[::-1], grid.spacing[::-1], periodic=(False, True))
-        return np.ascontiguousarray(_table(swapped, turned).T)
+        return np.ascontiguousarray(_table(_exchanged(grid), turned).T)
     return _table(grid, even)
+
+
+def odd_surface_table(grid: Grid, material: Material) -> FloatArray:
+    """Return the part of the displacement of `surface_table` that is odd along both axes, (nx, ny)."""
+    odd = _harmonics(material)[1]
+    if grid.periodic[0]:
+        return np.ascontiguousarray(_odd_table(_exchanged(grid), -odd * _alternating(odd)).T)
+    return _odd_table(grid, odd)
+
+
+def _exchanged(grid: Grid) -> Grid:
+    """Return the grid, periodic along x, with its axes exchanged."""
+    return Grid(grid.shape[::-1], grid.spacing[::-1], periodic=(False, True))
+
+
+def _alternating(odd: FloatArray) -> FloatArray:
+    """Return (-1)^m, m from 1, for each coefficient."""
+    return np.asarray((-1.0) ** np.arange(1, len(odd) + 1))
+
+
+def _odd_table(grid: Grid, odd: FloatArray) -> FloatArray:
+    """Return the table of a surface with the harmonics b_m on a grid that is free along x at least."""
+    response = OddCrystalPoint(odd * _alternating(odd) / (2 * np.pi))
+    unit = math.sqrt(grid.cell_area)
+    dx, dy = grid.spacing[0] / unit, grid.spacing[1] / unit
+    x, y = dx * np.arange(grid.shape[0], dtype=np.float64), dy * np.arange(grid.shape[1], dtype=np.float64)
+    table = image_sum if grid.periodic[1] else cell_table
+    return unit * table(x, y, (dx, dy), response)
 
 
 def _table(grid: Grid, even: FloatArray) -> FloatArray:
@@ -93,10 +128,10 @@ def _table(grid: Grid, even: FloatArray) -> FloatArray:
     return mean + unit * image_sum(x, y, (dx, dy), CrystalPoint(point))
 
 
-def _even_harmonics(material: Material) -> FloatArray:
+def _harmonics(material: Material) -> tuple[FloatArray, FloatArray]:
+    """Return the coefficients a_m and b_m [1/Pa]."""
     assert material.stiffness is not None
-    material.stiffness.check_mirror_symmetric()
-    return material.stiffness.harmonics[0]
+    return material.stiffness.harmonics
 
 
 def _clenshaw(coefficients: FloatArray, cosine: FloatArray) -> FloatArray:
@@ -108,16 +143,28 @@ def _clenshaw(coefficients: FloatArray, cosine: FloatArray) -> FloatArray:
     return coefficients[0] + cosine * latest - later
 
 
+def _clenshaw_sines(coefficients: FloatArray, cosine: FloatArray, sine: FloatArray) -> FloatArray:
+    """Return the sum of c_m sin(2 m theta), m from 1, at cos(2 theta) and sin(2 theta)."""
+    later, latest = np.zeros_like(cosine), np.zeros_like(cosine)
+    twice = 2 * cosine
+    for value in coefficients[::-1]:
+        later, latest = latest, value + twice * latest - later
+    return sine * latest
+
+
 class CrystalPoint:
     """Point response g(theta) / r, g = sum of c_m cos(2 m theta)."""
+
+    parity = 1
 
     def __init__(self, coefficients: FloatArray) -> None:
         self.coefficients = coefficients
         self.along_x = _Corner(coefficients)
         self.along_y = _Corner(coefficients * (-1.0) ** np.arange(len(coefficients)))
 
-    def value(self, squared_x: FloatArray, squared_y: FloatArray) -> FloatArray:
-        """Return g / r at the squares of the distances along x and y."""
+    def value(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Return g / r at offsets x and y."""
+        squared_x, squared_y = x**2, y**2
         squared = squared_x + squared_y
         return _clenshaw(self.coefficients, (squared_x - squared_y) / squared) / np.sqrt(squared)
 
@@ -134,7 +181,38 @@ class CrystalPoint:
 
     def beyond(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """Return the integral of g / r along y from y to infinity, for g(pi/2) = 0."""
-        return self.along_x.whole - self.along_x(x, y)
+        return self.along_x.whole - self.along_x(np.abs(x), y)
+
+
+class OddCrystalPoint:
+    """Point response g(theta) / r, g = sum of c_m sin(2 m theta), m from 1."""
+
+    parity = -1
+
+    def __init__(self, coefficients: FloatArray) -> None:
+        self.coefficients = coefficients
+        self.along_x = _OddCorner(coefficients)
+        self.along_y = _OddCorner(-coefficients * _alternating(coefficients))  # sin(2 m (pi/2 - theta))
+
+    def value(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Return g / r at offsets x and y."""
+        squared_x, squared_y = x**2, y**2
+        squared = squared_x + squared_y
+        cosine, sine = (squared_x - squared_y) / squared, 2 * x * y / squared
+        return _clenshaw_sines(self.coefficients, cosine, sine) / np.sqrt(squared)
+
+    def near(self, x: FloatArray, y: FloatArray, a: float, b: float) -> FloatArray:
+        """Return the integral of g / r over |x'| < a, |y'| < b at points (n,)."""
+        total = np.zeros_like(x)
+        for i in (-1, 1):
+            for j in (-1, 1):
+                right, up = np.abs(x + i * a), np.abs(y + j * b)
+                total += i * j * (right * self.along_x(right, up) + up * self.along_y(up, right))
+        return total
+
+    def beyond(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Return the integral of g / r along y from y to infinity."""
+        return np.sign(x) * self.along_x.rest(np.abs(x), y)
 
 
 class _Corner:
@@ -163,3 +241,33 @@ class _Corner:
         for number, value in enumerate(self.sines):
             found += value * np.sin((2 * number + 1) * theta)
         return np.where(u > 0, found, 0.0)
+
+
+class _OddCorner:
+    """P: the integral of g / cos from 0 to theta = arctan(v / u), for g = sum of c_m sin(2 m theta), m from 1.
+
+    The integrals J_m of sin(2 m theta) / cos(theta) obey J_m + J_(m-1) = 2 [1 - cos((2 m - 1) theta)] / (2 m - 1), and
+    J_0 = 0. So P = sum of s_j [1 - cos((2 j - 1) theta)], with s_j = 2 / (2 j - 1) times the sum of (-1)^(m - j) c_m
+    over m from j.
+    """
+
+    def __init__(self, coefficients: FloatArray) -> None:
+        signs = _alternating(coefficients)
+        tails = np.cumsum((signs * coefficients)[::-1])[::-1]
+        self.factors = 2 * signs * tails / (2 * np.arange(1, len(coefficients) + 1) - 1)
+
+    def __call__(self, u: FloatArray, v: FloatArray) -> FloatArray:
+        """Return P at corners (u, v), not negative."""
+        theta = np.arctan2(v, u)
+        found = np.zeros(theta.shape)
+        for number, value in enumerate(self.factors):
+            found += 2 * value * np.sin((number + 0.5) * theta) ** 2
+        return found
+
+    def rest(self, u: FloatArray, v: FloatArray) -> FloatArray:
+        """Return the integral from theta to pi/2 at corners (u, v), not negative."""
+        theta = np.arctan2(v, u)
+        found = np.zeros(theta.shape)
+        for number, value in enumerate(self.factors):
+            found += value * np.cos((2 * number + 1) * theta)
+        return found

@@ -1,4 +1,4 @@
-"""Integrals of a point response over cells and their images, for responses that are even along each axis.
+"""Integrals of a point response over cells and their images, for responses that are even, or odd, along both axes.
 
 A `PointResponse` gives its value at a distance, its integral over a near rectangle, and, where images are summed, its
 integral along y beyond a distance. Here they become tables of influence coefficients:
@@ -44,10 +44,15 @@ _NODES, _LINE_POINTS = 24, 6
 
 
 class PointResponse(Protocol):
-    """Displacement under a point force, times a constant; even along each axis."""
+    """Displacement under a point force, times a constant.
 
-    def value(self, squared_x: FloatArray, squared_y: FloatArray) -> FloatArray:
-        """Return the response at the squares of the distances along x and y."""
+    parity : 1 if it is even along each axis, -1 if it is odd along both.
+    """
+
+    parity: int
+
+    def value(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Return the response at offsets x and y from the force, of either sign."""
         ...
 
     def near(self, x: FloatArray, y: FloatArray, a: float, b: float) -> FloatArray:
@@ -55,7 +60,7 @@ class PointResponse(Protocol):
         ...
 
     def beyond(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """Return its integral along y from y to infinity, at (nx, 1) distances along x and (1, ny) along y."""
+        """Return its integral from y > 0 to infinity along y, at offsets x (nx, 1) and y (1, ny)."""
         ...
 
 
@@ -110,9 +115,8 @@ def _gauss(x: FloatArray, y: FloatArray, a: float, b: float, response: PointResp
     nodes, weights = np.polynomial.legendre.leggauss(count)
     total = np.zeros_like(x)
     for u, along in zip(a * nodes, weights, strict=True):
-        squared_x = (x - u) ** 2
         for v, across in zip(b * nodes, weights, strict=True):
-            total += along * across * response.value(squared_x, (y - v) ** 2)
+            total += along * across * response.value(x - u, y - v)
     return a * b * total
 
 
@@ -139,7 +143,7 @@ def image_sum(x: FloatArray, y: FloatArray, sides: tuple[float, float], response
     cardinal = np.cos(orders[:, None] * angles) * np.where(orders > 0, 2.0, 1.0)[:, None] / _NODES
     basis = np.cos(orders[:, None] * np.arccos(np.clip(half / middle - 1, -1, 1)))
     out += tail @ cardinal.T @ basis
-    return np.concatenate([out, out[:, 1 : (count + 1) // 2][:, ::-1]], axis=1)
+    return np.concatenate([out, response.parity * out[:, 1 : (count + 1) // 2][:, ::-1]], axis=1)
 
 
 def _beyond(
@@ -151,5 +155,7 @@ def _beyond(
     for u, along in zip(0.5 * sides[0] * nodes, weights, strict=True):
         for v, across in zip(0.5 * sides[1] * nodes, weights, strict=True):
             for side in (-1.0, 1.0):
-                total += along * across * response.beyond(np.abs(x - u)[:, None], start + side * (y - v)[None, :])
+                sign = side if response.parity < 0 else 1.0
+                rest = response.beyond((x - u)[:, None], start + side * (y - v)[None, :])
+                total += sign * along * across * rest
     return 0.25 * sides[0] * sides[1] * total

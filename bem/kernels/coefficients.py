@@ -33,6 +33,7 @@ __all__ = [
     "SURFACE_PARITY",
     "Load",
     "in_plane_coefficients",
+    "odd_surface_coefficients",
     "stress_coefficients",
     "surface_coefficients",
 ]
@@ -43,7 +44,8 @@ def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
     """Return the normal surface displacement [m/Pa] of a unit load on the cell at the origin, shape (nx, ny).
 
     Entry [i, j] belongs to the offset (i dx, j dy), i = 0..nx-1, j = 0..ny-1. Other offsets follow from
-    `SURFACE_PARITY`. On a grid with one periodic axis the datum is that of `semi_periodic`.
+    `SURFACE_PARITY`. On a grid with one periodic axis the datum is that of `semi_periodic`. Of a crystal it is the part
+    that is even along each axis; `odd_surface_coefficients` has the rest.
 
     Raises
     ------
@@ -61,6 +63,24 @@ def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
     if not body.homogeneous:
         table += _layered(grid).surface_remainder(grid, body, load)
     return table
+
+
+@one_blas_thread
+def odd_surface_coefficients(grid: Grid, body: Body) -> FloatArray | None:
+    """Return the part of the displacement under pressure that is odd along both axes, shape (nx, ny) [m/Pa].
+
+    None of a body that responds alike on both sides of the x axis: all but crystals do.
+
+    Raises
+    ------
+    InputError : a doubly periodic grid.
+    """
+    _refuse_doubly_periodic(grid)
+    if body.material.stiffness is None or body.material.stiffness.mirror_symmetric:
+        return None
+    from bem.kernels.anisotropic import odd_surface_table  # late, because few bodies need it
+
+    return odd_surface_table(grid, body.material)
 
 
 @one_blas_thread

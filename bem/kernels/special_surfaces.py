@@ -1,6 +1,7 @@
 """Selection of the kernel of a surface that is not Boussinesq's: a crystal, or a surface under tension.
 
-Both modules have `surface_table(grid, material)` and `surface_response(kx, ky, material)`, of pressure alone.
+Both modules have `surface_table(grid, material)` and `surface_response(kx, ky, material)`, of pressure alone and even
+along each axis. `anisotropic` has the part that is odd along both, too.
 """
 
 from __future__ import annotations

@@ -66,7 +66,8 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
 
     Pressure: 2 / (E* q), the spectrum itself. Traction along +x: -(1-2nu) kx / (2 G q^2), its imaginary part.
     Mean mode 0. Johnson (1985), section 13.2, and the transform of Cerruti's solution. With layers: see
-    `layered.frequency_response`.
+    `layered.frequency_response`. Of a crystal it is the part that is even in kx and ky; `odd_surface_response` has the
+    rest.
 
     Raises
     ------
@@ -89,6 +90,24 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
         out = -(1 - 2 * material.poissons_ratio) / (2 * material.shear_modulus) * odd_x / q**2
     out[0, 0] = 0.0
     return out
+
+
+def odd_surface_response(grid: Grid, body: Body) -> FloatArray | None:
+    """Return the part of the displacement under harmonic pressure that is odd in kx and ky, (nx, ny//2 + 1) [m/Pa].
+
+    None of a body that responds alike on both sides of the x axis: all but crystals do.
+
+    Raises
+    ------
+    InputError : a grid that is not periodic along both axes.
+    """
+    _check(grid)
+    if body.material.stiffness is None or body.material.stiffness.mirror_symmetric:
+        return None
+    from bem.kernels.anisotropic import odd_surface_response as crystal_response  # late, because few bodies need it
+
+    kx, ky, _, odd_x, odd_y = _wavevectors(grid)
+    return crystal_response(kx, ky, body.material) * ((odd_x == kx) & (odd_y == ky))
 
 
 def in_plane_response(grid: Grid, body: Body) -> FloatArray:

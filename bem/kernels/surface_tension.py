@@ -150,12 +150,14 @@ def _horner(coefficients: list[float], x: FloatArray) -> FloatArray:
 class TensePoint:
     """Point response f(r / s) / s."""
 
+    parity = 1
+
     def __init__(self, length: float) -> None:
         self.length, self.radial = length, radial_function()
 
-    def value(self, squared_x: FloatArray, squared_y: FloatArray) -> FloatArray:
-        """Return f(r / s) / s at the squares of the distances along x and y."""
-        return self.radial.value(np.sqrt(squared_x + squared_y) / self.length) / self.length
+    def value(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Return f(r / s) / s at offsets x and y."""
+        return self.radial.value(np.sqrt(x**2 + y**2) / self.length) / self.length
 
     def near(self, x: FloatArray, y: FloatArray, a: float, b: float) -> FloatArray:
         """Return the integral of f(r / s) / s over |x'| < a, |y'| < b at points (n,)."""
@@ -172,9 +174,9 @@ class TenseExcess(TensePoint):
     far: tuple[tuple[float, bytes], FloatArray] | None = None
     """The last integral beyond a power of two, with its key: images differ in what lies below."""
 
-    def value(self, squared_x: FloatArray, squared_y: FloatArray) -> FloatArray:
-        """Return the response at the squares of the distances along x and y."""
-        return self.radial.excess(np.sqrt(squared_x + squared_y) / self.length) / self.length
+    def value(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Return the response at offsets x and y."""
+        return self.radial.excess(np.sqrt(x**2 + y**2) / self.length) / self.length
 
     def near(self, x: FloatArray, y: FloatArray, a: float, b: float) -> FloatArray:
         """Return the integral of the response over |x'| < a, |y'| < b at points (n,)."""
@@ -191,14 +193,14 @@ class TenseExcess(TensePoint):
         total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
         for node, weight in zip(nodes, weights, strict=True):
             at = y + 0.5 * (1 + node) * (start - y)
-            total += 0.5 * weight * (start - y) * self.value(x**2, at**2)
+            total += 0.5 * weight * (start - y) * self.value(x, at)
         key = (start, x.tobytes())
         if self.far is None or self.far[0] != key:
             panels = max(1, math.ceil(math.log2(1e8 * self.length / start)))
             lows = start * 2.0 ** np.arange(panels)
             at = (lows[:, None] * (1.5 + 0.5 * nodes)).reshape(1, -1)
             weight_of = (0.5 * lows[:, None] * weights).reshape(-1)
-            self.far = key, (self.value(x**2, at**2) @ weight_of)[:, None]
+            self.far = key, (self.value(x, at) @ weight_of)[:, None]
         return np.asarray(total + self.far[1])
 
 

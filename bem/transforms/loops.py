@@ -23,6 +23,9 @@ BEGINS, GOES_ON, ENDS = range(3)
 ONE = 2
 """Value of `Factor.real_parity` for the multiplier that is one everywhere."""
 
+WHOLE = 3
+"""Value of `Factor.real_parity` for a real part of no parity along x, of which all wavenumbers are stored."""
+
 
 class TransformPlan(NamedTuple):
     """Lengths, blocks, FFTW plans and the array of row spectra, shared by all threads.
@@ -120,7 +123,8 @@ class Squares(NamedTuple):
 class Factor(NamedTuple):
     """Multiplier in one precision, as compiled code takes it (see `Multiplier`).
 
-    A parity of 0 means that the part is zero, `ONE` that it is one everywhere; its array is empty then.
+    A parity of 0 means that the part is zero, `ONE` that it is one everywhere; its array is empty then. Beside a real
+    part that is `WHOLE` there is no imaginary part.
     """
 
     real: NDArray[Any]
@@ -439,6 +443,10 @@ def multiply_column(rows, number, given, target, scale, length):
     if parities[0] == ONE:
         for j in range(2 * length):
             result[j] = source[j] * scale
+    elif parities[0] == WHOLE:
+        for j in range(length):
+            a = real[j] * scale
+            result[2 * j], result[2 * j + 1] = source[2 * j] * a, source[2 * j + 1] * a
     elif parities[0] == 0 and parities[1] == 0:
         for j in range(2 * length):
             result[j] = 0

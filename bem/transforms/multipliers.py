@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from bem.errors import InputError
-from bem.transforms.loops import ONE, Factor
+from bem.transforms.loops import ONE, WHOLE, Factor
 
 FloatArray = NDArray[Any]
 ComplexArray = NDArray[Any]
@@ -23,7 +23,8 @@ class Multiplier:
     Attributes
     ----------
     real, imaginary : (py // 2 + 1, px // 2 + 1), or None for zero.
-    real_parity, imaginary_parity : +1 or -1; the part at wavenumber px - k is its parity times the part at k.
+    real_parity, imaginary_parity : +1 or -1; the part at wavenumber px - k is its parity times the part at k. A real
+        part that is neither has `WHOLE` for its parity, all wavenumbers (py // 2 + 1, px), and no imaginary part.
     """
 
     real: FloatArray | None = None
@@ -65,32 +66,33 @@ class Multiplier:
         return Multiplier(real, imaginary, self.real_parity, self.imaginary_parity)
 
 
-def multiplier(parts: list[tuple[FloatArray, tuple[int, int], float]]) -> Multiplier:
+def multiplier(parts: list[tuple[FloatArray, tuple[int, int], float]], length: int | None = None) -> Multiplier:
     """Return the multiplier of a sum of kernels.
 
     parts : (spectrum from `kernel_spectrum`, parity along x and y, factor) of each kernel.
+    length : px, of the transforms along x; only needed for kernels of both parities along x with real spectra.
 
     Raises
     ------
-    InputError : two real or two imaginary parts of different parity along x.
+    InputError : imaginary parts of different parity along x, or real ones without `length` or with imaginary parts.
     """
-    real: FloatArray | None = None
-    imaginary: FloatArray | None = None
-    parities = [1, -1]
+    real: dict[int, FloatArray] = {}
+    imaginary: dict[int, FloatArray] = {}
     for spectrum, (along_x, along_y), factor in parts:
         odd = (along_x == -1) + (along_y == -1)
         sign = -factor if odd == 2 else factor
         term = spectrum if sign == 1 else sign * spectrum  # large: no copy if it can be avoided
-        previous = imaginary if odd == 1 else real
-        if previous is not None and parities[odd % 2] != along_x:
-            raise InputError("multiplier: parts of different parity along x cannot share one quarter array")
-        parities[odd % 2] = along_x
-        total = term if previous is None else previous + term
-        if odd == 1:
-            imaginary = total
-        else:
-            real = total
-    return Multiplier(real, imaginary, parities[0], parities[1])
+        sums = imaginary if odd == 1 else real
+        sums[along_x] = sums[along_x] + term if along_x in sums else term
+    if len(imaginary) > 1 or (len(real) > 1 and (imaginary or length is None)):
+        raise InputError("multiplier: parts of different parity along x cannot share one quarter array")
+    if len(real) > 1:
+        assert length is not None
+        negative = slice((length - 1) // 2, 0, -1)
+        whole = np.concatenate([real[1] + real[-1], (real[1] - real[-1])[:, negative]], axis=1)
+        return Multiplier(whole, real_parity=WHOLE)
+    real_parity, imaginary_parity = next(iter(real), 1), next(iter(imaginary), -1)
+    return Multiplier(real.get(real_parity), imaginary.get(imaginary_parity), real_parity, imaginary_parity)
 
 
 def unit_factor(dtype: np.dtype[Any]) -> Factor:

@@ -13,7 +13,15 @@ from bem.stiffness import Stiffness
 
 COPPER = CATALOGUE["copper-crystal"].material.stiffness
 ON_110 = COPPER.oriented((1, 1, 0), (0, 0, 1))
+SKEW = Stiffness("cubic", c11=7.4e9, c12=6.2e9, c44=4.2e9, normal=(1, 2, 3))
+"""A surface of sodium that does not respond alike on both sides of the x axis."""
 LOAD, RADIUS = 0.05, 1e-3
+
+
+def turned_by(stiffness: Stiffness, angle: float) -> Stiffness:
+    """The crystal in axes turned by an angle about the normal: x goes towards y."""
+    x, y, _ = stiffness.rotation
+    return stiffness.oriented(stiffness.normal, math.cos(angle) * x + math.sin(angle) * y)
 
 
 def test_isotropic_bodies_give_hertz() -> None:
@@ -31,12 +39,13 @@ def test_isotropic_bodies_give_hertz() -> None:
     assert ellipse.approach == pytest.approx(exact.approach, rel=1e-9, abs=0)
 
 
-def test_pressure_displaces_its_ellipse_to_the_paraboloid() -> None:
+@pytest.mark.parametrize("stiffness", [ON_110, SKEW])
+def test_pressure_displaces_its_ellipse_to_the_paraboloid(stiffness: Stiffness) -> None:
     """The pressure's convolution with g / r by quadrature about points of the ellipse."""
-    found = crystal_hertz([ON_110], (RADIUS, 2 * RADIUS), LOAD)
+    found = crystal_hertz([stiffness], (RADIUS, 2 * RADIUS), LOAD)
     a, b = found.semi_axes
     angles = np.arange(256) * (2 * np.pi / 256)
-    point = ON_110.surface_compliance(angles + np.pi / 2) / (2 * np.pi)
+    point = stiffness.surface_compliance(angles + found.angle + np.pi / 2) / (2 * np.pi)
     c, s = np.cos(angles), np.sin(angles)
     nodes, weights = np.polynomial.legendre.leggauss(40)
     half = 0.25 * np.pi * (nodes + 1)
@@ -51,8 +60,40 @@ def test_pressure_displaces_its_ellipse_to_the_paraboloid() -> None:
         phi = start[:, None] + span[:, None] * (half / (np.pi / 2))
         ray = d / np.sqrt(w) * (np.cos(phi) ** 2 @ weights) * span / 2
         displaced = found.maximum_pressure * 2 * np.pi * np.mean(point * ray)
-        wanted = found.approach - x**2 / (2 * RADIUS) - y**2 / (4 * RADIUS)
+        along_x = x * math.cos(found.angle) - y * math.sin(found.angle)
+        along_y = x * math.sin(found.angle) + y * math.cos(found.angle)
+        wanted = found.approach - along_x**2 / (2 * RADIUS) - along_y**2 / (4 * RADIUS)
         assert displaced == pytest.approx(wanted, rel=1e-12, abs=0)
+
+
+@pytest.mark.parametrize("degrees", [20, 70, 130])
+def test_ellipse_under_a_ball_turns_with_the_crystal(degrees: float) -> None:
+    still = crystal_hertz([ON_110], (RADIUS, RADIUS), LOAD)
+    turned = crystal_hertz([turned_by(ON_110, math.radians(degrees))], (RADIUS, RADIUS), LOAD)
+    # the first axis lies in the first quadrant; the still one has it along x
+    quarters = math.ceil((turned.angle + math.radians(degrees)) / (math.pi / 2) - 0.5)
+    assert turned.angle + math.radians(degrees) == pytest.approx(quarters * math.pi / 2, rel=1e-9)
+    axes = still.semi_axes if quarters % 2 == 0 else still.semi_axes[::-1]
+    assert turned.semi_axes == pytest.approx(axes, rel=1e-9, abs=0)
+    assert turned.approach == pytest.approx(still.approach, rel=1e-12, abs=0)
+    assert turned.maximum_pressure == pytest.approx(still.maximum_pressure, rel=1e-12)
+
+
+@pytest.mark.parametrize("radii", [(RADIUS, RADIUS), (RADIUS, 2 * RADIUS)])
+def test_contact_solver_finds_the_ellipse_of_a_surface_that_is_not_symmetric(radii: tuple[float, float]) -> None:
+    exact = crystal_hertz([SKEW], radii, LOAD)
+    cells = 64
+    grid = Grid((cells, cells), (2.4 * max(exact.semi_axes) / cells,) * 2)
+    gap = grid.x[:, None] ** 2 / (2 * radii[0]) + grid.y**2 / (2 * radii[1])
+    found = solve_contact(gap, displacement_operator(grid, Body(Material("sodium", stiffness=SKEW))), load=LOAD)
+    assert found.approach == pytest.approx(exact.approach, rel=2e-4, abs=0)
+    assert found.maximum_pressure == pytest.approx(exact.maximum_pressure, rel=2e-4)
+    assert found.contact_area == pytest.approx(math.pi * math.prod(exact.semi_axes), rel=3e-3, abs=0)
+    c, s = math.cos(exact.angle), math.sin(exact.angle)
+    along, across = c * grid.x[:, None] + s * grid.y, c * grid.y - s * grid.x[:, None]
+    inside = 1 - (along / exact.semi_axes[0]) ** 2 - (across / exact.semi_axes[1]) ** 2
+    pressure = exact.maximum_pressure * np.sqrt(np.maximum(0, inside))
+    assert np.abs(found.pressure - pressure).mean() < 4e-3 * pressure.mean()
 
 
 def test_contact_solver_finds_the_ellipse() -> None:

@@ -22,9 +22,10 @@ def ball(material, **tables):
     } | tables
 
 
-def test_ball_on_a_crystal_is_the_closed_form_within_its_error_bars(tmp_path):
-    run = run_scene(ball({"catalogue": "copper-crystal", "orientation": ON_111}), tmp_path / "run")
-    stiffness = CATALOGUE["copper-crystal"].material.stiffness.oriented(**ON_111)
+@pytest.mark.parametrize("orientation", [ON_111, {"normal": [1, 2, 3], "along_x": [1, 1, -1]}])
+def test_ball_on_a_crystal_is_the_closed_form_within_its_error_bars(tmp_path, orientation):
+    run = run_scene(ball({"catalogue": "copper-crystal", "orientation": orientation}), tmp_path / "run")
+    stiffness = CATALOGUE["copper-crystal"].material.stiffness.oriented(**orientation)
     exact = crystal_hertz([stiffness], (1e-3, 1e-3), 0.05)
     values = {
         "approach_m": exact.approach,
@@ -75,7 +76,6 @@ CUBIC = {"crystal": "cubic", "c11": "3 GPa", "c12": "1 GPa", "c44": "1 GPa"}
         (ball({"stiffness": CUBIC | {"c12": "4 GPa"}}), "not positive definite"),
         (ball({"youngs_modulus": "3 GPa", "poissons_ratio": 0.3, "orientation": ON_111}), "without stiffness"),
         (ball({"stiffness": CUBIC, "orientation": {"along_x": [0, 0, 1]}}), "is the normal"),
-        (ball({"stiffness": CUBIC | {"c44": "2 GPa"}, "orientation": {"along_x": [1, 0.2, 0]}}), "both sides of the x"),
         (
             ball("copper-crystal", contact={"load": "1 N", "friction": 0.1}),
             "contact.friction, and lower.material is a crystal",

@@ -8,7 +8,6 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field, model_validator
 
 from bem.adhesion.laws import AdhesionLaw
-from bem.errors import InputError
 from bem.scenes.common import Force, SmoothSurface, problem, refuse_relaxation, relaxing_bodies, special_bodies
 from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
@@ -149,12 +148,6 @@ class ContactScene(StressedScene):
                 raise problem(
                     f"stresses below the surface of {name}, whose material {special}", "none, or the other body"
                 )
-            stiffness = getattr(self, name).material.build().stiffness
-            try:
-                if stiffness is not None:
-                    stiffness.check_mirror_symmetric()
-            except InputError as error:
-                raise problem(f"{name}.material.{error.messages[0]}", "an orientation like those") from None
         return self
 
     @model_validator(mode="after")
