@@ -134,7 +134,7 @@ def test_constants_of_the_catalogues_are_told_with_their_sources():
     assert set(found) == {"material dlc", "material steel-52100", "material silicon-nitride"}
     assert found["material dlc"] == CATALOGUE["dlc"].source
     own = cited.catalogue_sources(plan_scene("coated-sphere", ("upper.material.youngs_modulus=300 GPa",))[0])
-    assert own["material silicon-nitride"].endswith("changed in the scene: youngs_modulus")
+    assert own["material silicon-nitride"].endswith("The scene itself gives youngs_modulus")
     oil = cited.catalogue_sources(plan_scene("hot-film")[0])
     assert "ISO 3448" in oil["oil ISO VG 68"]
 

@@ -97,12 +97,15 @@ def test_grease_says_what_can_be_done_instead():
         assert "[supply]" in said
 
 
-def test_water_is_a_viscosity_that_a_scene_takes():
+def test_water_is_an_oil_that_a_scene_takes():
     code, said = bem("oils", "water")
-    assert code == 2
-    water = dict(re.findall(r'(\w+) = "([^"]+)"', said))
-    assert load_scene("starved-roller", ["thermal=off", *_as_settings(water)]).oil.viscosity == pytest.approx(6.53e-4)
-    assert load_scene("traction-curve", ["thermal=lumped", *_as_settings(water, ("grade",))]).thermal == "lumped"
+    assert code == 0
+    assert "653 uPa s" in said
+    water = ("oil.grade=water", "oil.temperature=40 degC")
+    wet = load_scene("traction-curve", ["thermal=lumped", *water]).oil.build()
+    assert wet.viscosity == pytest.approx(6.53e-4, rel=1e-3)
+    with pytest.raises(InputError, match="write grade, a name that `bem oils` lists"):
+        load_scene("traction-curve", ["oil.grade=", "oil.name=water"])
 
 
 def test_a_water_glycol_runs_with_the_coefficient_that_its_message_names():
@@ -114,10 +117,6 @@ def test_a_water_glycol_runs_with_the_coefficient_that_its_message_names():
     code, said = bem("oils", "water-glycol 46")
     assert code == 0
     assert f'{key} = "{value}"' in said
-
-
-def _as_settings(oil, gone=("grade", "temperature")):
-    return [*(f"oil.{key}=" for key in gone), *(f'oil.{key}="{value}"' for key, value in oil.items())]
 
 
 @pytest.mark.parametrize("word", NOT_HERE)

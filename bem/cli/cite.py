@@ -107,8 +107,11 @@ def _of_element(name: str) -> tuple[dict[str, list[str]], dict[str, str]]:
     found, constants = sources_of_element(element), {}
     found = {**found, PROGRAM: [f"this program, version {bem.__version__}"]}
     with suppress(InputError):
+        # its materials are those of the file; the film of a bush has a modulus that stands for the wall
+        constants = catalogue_sources(load_scene(element.scene(element.worst(), "contact")))
+    with suppress(InputError):
         film = load_scene(element.scene(operating_places(element)[0], "traction"))
-        constants = catalogue_sources(film)
+        constants = catalogue_sources(film) | constants
         for key, methods in sources_of(film).items():
             found[key] = list(dict.fromkeys([*found.get(key, []), *methods]))
     return found, constants

@@ -53,10 +53,10 @@ def register(app: typer.Typer) -> None:
 
 def _row(name: str) -> tuple[str, ...]:
     from bem.lubrication.oils.catalogue import find_oil
-    from bem.lubrication.oils.index import viscosity_index
+    from bem.lubrication.oils.index import LEAST_VISCOSITY, viscosity_index
 
     oil = find_oil(name)
     at_40, at_100 = (1e6 * oil.viscosity.kinematic(t) for t in (313.15, 373.15))
-    index = viscosity_index(at_40, at_100)
+    index = f"{viscosity_index(at_40, at_100):.0f}" if at_100 >= LEAST_VISCOSITY else ""
     alpha = "give it" if oil.pressure_viscosity is None else f"{1e9 * oil.pressure_coefficient(313.15):.3g}"
-    return (name, oil.base, f"{at_40:.4g}", f"{at_100:.4g}", f"{index:.0f}", alpha, oil.viscosity_source)
+    return (name, oil.base, f"{at_40:.4g}", f"{at_100:.4g}", index, alpha, oil.viscosity_source)

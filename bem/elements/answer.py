@@ -2,7 +2,7 @@
 
 Rows of words from numbers that other modules compute: `running` the films, `bearing_life` and `gear_scuffing` the
 ratings, `element_wear` wear. A friction power with asperity contact is an estimate from the load share of Zhou and
-Hoeprich; kind friction computes it for a contact.
+Hoeprich; of a bush it is that of kind friction.
 """
 
 from __future__ import annotations
@@ -30,7 +30,6 @@ from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.running import Running, columns, run_all
 from bem.notes import Note
-from bem.notes.elements import SURFACES_TOUCH
 from bem.notes.note import percent
 from bem.quantities import plain_digits, with_unit
 
@@ -83,7 +82,7 @@ def friction_power(element: Element, runs: Sequence[Running]) -> FrictionPower:
     mixed = None
     if all(one.asperity_share is not None for one in known):
         boundary = element.model.boundary_friction
-        mixed = mean(lambda one: one.power + (one.asperity_share or 0.0) * (boundary * _slid(one) - one.power))
+        mixed = mean(lambda one: _power_with_asperities(one, boundary))
         rubbing = sum(
             one.load * abs(one.speeds[0] - one.speeds[1]) for one in found.contacts if abs(one.slide_roll_ratio) > 2
         )
@@ -92,6 +91,13 @@ def friction_power(element: Element, runs: Sequence[Running]) -> FrictionPower:
     if all(one.scatter is not None for one in known):
         down, up = (mean(partial(_scattered, k)) for k in (0, 1))
     return FrictionPower(mean(lambda one: one.power), mixed, down, up, len(steady) / len(found.contacts))
+
+
+def _power_with_asperities(one: Running, boundary: float) -> float:
+    """Return the friction power of film and asperities [W]: by kind friction, or from the estimated share."""
+    if one.mixed_friction is not None:
+        return one.mixed_friction * _slid(one)
+    return one.power + (one.asperity_share or 0.0) * (boundary * _slid(one) - one.power)
 
 
 def _slid(one: Running) -> float:
@@ -127,6 +133,8 @@ def balance_heat(element: Element, *, most: int = PLACES) -> Element:
     if balance is None or element.model.oil is None or element.model.oil.temperature is None:
         return element
     around = element.model.oil.temperature if balance.ambient is None else balance.ambient
+    if isinstance(element.model, PlainBushModel) and element.model.friction is not None:
+        return element.at_bulk(around + likely_power(element, ()) / balance.conductance)  # no film decides it
 
     def excess(temperature: float) -> float:
         at = element.at_bulk(temperature)
@@ -187,7 +195,15 @@ def _bush(element: Element, model: PlainBushModel, runs: Sequence[Running], solv
 def _film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | None:
     if not runs:
         return None
-    return FilmOfBush(likely_power(element, runs), max(one.asperity_share or 0.0 for one in runs))
+    warm = element.model.film_temperature
+    hottest = max((one.surface for one in runs if one.surface is not None), default=None)
+    return FilmOfBush(
+        likely_power(element, runs),
+        max(one.asperity_share or 0.0 for one in runs),
+        solved=all(one.mixed_friction is not None for one in runs),
+        touching=any((one.film_ratio or 1.0) < 1 for one in runs),
+        rise=0.0 if hottest is None or warm is None else max(hottest - warm, 0.0),
+    )
 
 
 def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...]:
@@ -195,9 +211,7 @@ def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...
     runs = [one for one in solved if one.converged]
     if not isinstance(element.model, PlainBushModel):
         return ()
-    touching = any((one.film_ratio or 1.0) < 1 for one in runs)
-    notes = bush_notes(element.model, _film_of_bush(element, runs))
-    return (*notes, SURFACES_TOUCH(where="")) if touching else notes
+    return bush_notes(element.model, _film_of_bush(element, runs))
 
 
 def table_columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]:
@@ -212,6 +226,8 @@ def table_columns(element: Element, runs: Sequence[Running]) -> dict[str, list[f
     found = {name: values for name, values in found.items() if not name.startswith("wear_per_pass")}
     film = _film_of_bush(element, [one for one in runs if one.converged])
     power = friction_power_of(element.model, film)[0]
+    if power is None:
+        return found
     temperature = bush_temperature(element.model, power)
     return found | {"friction_power_with_asperities [W]": [power], "bush_temperature [K]": [temperature]}
 
@@ -250,13 +266,16 @@ def contact_words(element: Element, one: ElementContact) -> str:
 
 def _film(element: Element, runs: Sequence[Running]) -> str:
     thinnest = min(runs, key=lambda one: one.minimum_film)
-    film = f"minimum film {1e9 * thinnest.minimum_film:.3g} nm at {place_words(element, thinnest.contact)}"
+    film = f"minimum film {with_unit(thinnest.minimum_film, 'm')} at {place_words(element, thinnest.contact)}"
     if thinnest.film_ratio is None:
         return f"not known: give rms_roughness, of both surfaces together; {film}"
     ratio = thinnest.film_ratio
     regime = "full film" if ratio >= 3 else "mixed lubrication" if ratio < 1 else "thin film, highest asperities touch"
     share = max(one.asperity_share or 0.0 for one in runs)
     touching = f"; asperities carry some {percent(share)} of the load, an estimate" if share >= 0.01 else ""
+    if touching and thinnest.mixed_friction is not None:
+        touching = f"; asperities carry {percent(share)} of the load"
+        film += ", if the film carried the whole load"
     return f"{ratio:.3g} ({regime}{touching}), {film}"
 
 
@@ -316,6 +335,8 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
         said += "films solved with bodies as warm as the oil (give bulk_temperature or heat_balance if warmer)"
     else:
         said += f"bodies {model.bulk_temperature - CELSIUS:.4g} °C, at which films are solved"
+        if model.viscosity_fixed and not model.viscosity_notes():
+            said += " (the viscosity given is taken at this temperature)"
     hot = [one for one in runs if one.flash is not None]
     if not hot:
         return f"{said}; flash temperature not known: thermal constants of a body are missing"

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from bem.elements.plain_bush import (
     AREA_FACTOR,
-    DRY_FRICTION,
     SERVICE_TEMPERATURES,
     TRANSFER,
     WORN_IN,
@@ -15,7 +15,13 @@ from bem.elements.plain_bush import (
     sliding_to_depth,
 )
 from bem.notes import Note
-from bem.notes.elements import BUSH_OVER_LIMIT, BUSH_WARMER_THAN_OIL, BUSH_WEARS_IN_FILM
+from bem.notes.elements import (
+    BUSH_LIQUID_LOST,
+    BUSH_OVER_LIMIT,
+    BUSH_TOUCHES,
+    BUSH_WARMER_THAN_OIL,
+    BUSH_WEARS_IN_FILM,
+)
 from bem.quantities import plain_digits, with_unit
 
 CELSIUS = 273.15
@@ -34,11 +40,18 @@ class FilmOfBush:
 
     Attributes
     ----------
-    power : friction of film and asperities [W]. asperity_share : of the load, an estimate.
+    power : friction of film and asperities [W].
+    asperity_share : of the load.
+    solved : whether share and friction are those of kind friction; else they are estimated.
+    touching : whether the smooth film is thinner than the roughness.
+    rise : of the hotter surface at its hottest above the bodies [K].
     """
 
     power: float
     asperity_share: float
+    solved: bool = False
+    touching: bool = False
+    rise: float = 0.0
 
 
 def pressure_words(model: PlainBushModel) -> str:
@@ -55,8 +68,8 @@ def pressure_words(model: PlainBushModel) -> str:
     )
 
 
-def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[float, str]:
-    """Return the friction power [W] and where it comes from.
+def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[float | None, str]:
+    """Return the friction power [W] and where it comes from; None where no friction coefficient is known.
 
     film : None of a dry bush.
     """
@@ -67,16 +80,20 @@ def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[f
         coefficient = f"friction coefficient {film.power / slid:.3g}"
         if film.asperity_share < LEAST_SHARE:
             return film.power, f"{coefficient}, of the film"
+        if film.solved:
+            return film.power, (
+                f"{coefficient} of film and asperities, by kind friction with a ground shaft and a boundary friction "
+                f"of {model.boundary_friction:g}"
+            )
         return film.power, (
-            f"{coefficient}, an estimate with a boundary friction of {model.boundary_friction:g}: the share of "
-            "asperities is by tests of ground steel, and may be several times too low for polymers; a scene of kind "
-            "friction computes it"
+            f"{coefficient}, estimated from tests of ground steel with a boundary friction of "
+            f"{model.boundary_friction:g}; a polymer may have several times more"
         )
-    dry = "" if model.oil is None else ", as if dry: no film is solved"
-    return (
-        DRY_FRICTION * slid,
-        f"friction coefficient {DRY_FRICTION:g} assumed{dry}: dry thermoplastics have 0.15 to 0.40",
-    )
+    dry = "dry" if model.oil is None else "as if dry, as no film is solved"
+    known, bush = model.dry_friction, model.second.build().name
+    if known is None:
+        return None, f"give friction, measured against this shaft: none is known of {bush}, {dry}"
+    return known[0] * slid, f"friction coefficient {known[0]:g} assumed for {bush}, {dry}: {known[1]}"
 
 
 def bush_temperature(model: PlainBushModel, power: float) -> float:
@@ -89,7 +106,7 @@ def bush_rows(model: PlainBushModel, film: FilmOfBush | None) -> list[tuple[str,
     power, source = friction_power_of(model, film)
     rows = [
         ("pressure x velocity", _pv(model)),
-        ("friction power", f"{plain_digits(power, 3)} W ({source})"),
+        ("friction power", f"not known: {source}" if power is None else f"{plain_digits(power, 3)} W ({source})"),
         ("temperatures", _temperature(model, power)),
         ("wear per hour", _wear(model)),
     ]
@@ -109,17 +126,45 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
     peak, strength = model.conforming.maximum_pressure, model.second.build().yield_stress
     if strength is not None and peak > strength:
         notes.append(BUSH_OVER_LIMIT(value=1e-6 * peak, limit=1e-6 * strength, reason="yield"))
-    highest = model.service_temperature
-    known = film is not None or model.oil is None or model.friction is not None
-    temperature = bush_temperature(model, friction_power_of(model, film)[0]) if known else 0.0
-    if highest is not None and temperature > highest:
-        notes.append(BUSH_OVER_LIMIT(value=temperature - CELSIUS, limit=highest - CELSIUS, reason="temperature"))
-    liquid = None if model.film_oil is None or film is None else model.film_oil.temperature
-    if liquid is not None and temperature > liquid + _WARMER:
-        notes.append(BUSH_WARMER_THAN_OIL(bush=temperature - CELSIUS, oil=liquid - CELSIUS))
+    power = friction_power_of(model, film)[0] if film is not None or model.oil is None or model.friction else None
+    if power is not None:
+        notes += _temperature_notes(model, film, bush_temperature(model, power))
     if film is not None and film.asperity_share < LEAST_SHARE and model.specific_wear_rate:
         notes.append(BUSH_WEARS_IN_FILM(share=film.asperity_share))
+    if film is not None and film.touching:
+        notes.append(BUSH_TOUCHES(share=film.asperity_share, reason="solved" if film.solved else "estimated"))
     return tuple(notes)
+
+
+def _temperature_notes(model: PlainBushModel, film: FilmOfBush | None, temperature: float) -> list[Note]:
+    """Return notes on a bush temperature [K] that the bush or its liquid does not stand, or its film does not have."""
+    notes, highest = [], model.service_temperature
+    if highest is not None and temperature > highest:
+        notes.append(BUSH_OVER_LIMIT(value=temperature - CELSIUS, limit=highest - CELSIUS, reason="temperature"))
+    lost = _liquid_lost(model, temperature, 0.0 if film is None else film.rise)
+    if lost is not None:
+        notes.append(lost)
+    liquid = None if model.film_oil is None or film is None else model.film_oil.temperature
+    if lost is None and liquid is not None and temperature > liquid + _WARMER:
+        notes.append(BUSH_WARMER_THAN_OIL(bush=temperature - CELSIUS, oil=liquid - CELSIUS))
+    return notes
+
+
+def _liquid_lost(model: PlainBushModel, temperature: float, rise: float) -> Note | None:
+    """Return a note on a liquid that freezes, evaporates or boils at the bush's temperature and its rise [K]."""
+    limits = model.liquid_limits
+    if limits is None:
+        return None
+    freezing, service, boiling = limits
+    hottest = temperature + rise
+    said: dict[str, Any] = {"bush": temperature - CELSIUS, "rise": rise}
+    if hottest >= boiling:
+        return BUSH_LIQUID_LOST(**said, limit=boiling - CELSIUS, reason="boils")
+    if hottest > service:
+        return BUSH_LIQUID_LOST(**said, limit=service - CELSIUS, reason="evaporates")
+    if temperature <= freezing:
+        return BUSH_LIQUID_LOST(**said, limit=freezing - CELSIUS, reason="freezes")
+    return None
 
 
 def _pv(model: PlainBushModel) -> str:
@@ -131,12 +176,17 @@ def _pv(model: PlainBushModel) -> str:
     return f"{said}; limit {1e-6 * model.pv_limit:.3g} MPa m/s, safety factor {1e-6 * model.pv_limit / pv:.3g}"
 
 
-def _temperature(model: PlainBushModel, power: float) -> str:
-    temperature = bush_temperature(model, power) - CELSIUS
+def _temperature(model: PlainBushModel, power: float | None) -> str:
+    if power is None and model.bulk_temperature is None:
+        return "not known: they follow from the friction"
+    temperature = bush_temperature(model, power or 0.0) - CELSIUS
     around = model.surroundings - CELSIUS
     if model.bulk_temperature is not None:
-        said = f"bush {temperature:.4g} °C, given or by the heat balance"
+        said = f"bush {temperature:.4g} °C, {'by the heat balance' if model.balanced else 'given'}"
+        if model.viscosity_fixed and not model.viscosity_notes():
+            said += " (the viscosity given is taken at this temperature)"
     else:
+        assert power is not None
         said = (
             f"bush {temperature:.3g} °C: surroundings {around:.3g} °C plus {plain_digits(power, 3)} W over "
             f"{model.conductance:.3g} W/K"

@@ -7,6 +7,7 @@ full, 6, 3000, 80
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -68,9 +69,10 @@ def columns(cases: Sequence[Element]) -> dict[str, list[float | str]]:
         found["pv [Pa*m/s]"] = [one.mean_pressure * one.sliding_speed for one in bushes]
         if all(one.oil is None or one.friction is not None for one in bushes):  # else friction is that of films
             power = [friction_power_of(one, None)[0] for one in bushes]
-            found["friction_power [W]"] = list(power)
+            found["friction_power [W]"] = [math.nan if each is None else each for each in power]
             found["bush_temperature [K]"] = [
-                bush_temperature(one, each) for one, each in zip(bushes, power, strict=True)
+                math.nan if each is None else bush_temperature(one, each)
+                for one, each in zip(bushes, power, strict=True)
             ]
         if all(one.specific_wear_rate for one in bushes):
             found["wear_life [h]"] = [wear_life(one)[1] for one in bushes]

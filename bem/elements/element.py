@@ -16,6 +16,7 @@ from types import MappingProxyType
 from typing import Any
 
 from bem.arguments import read_small
+from bem.elements.bush_answer import bush_temperature, friction_power_of
 from bem.elements.cam_follower import CamModel
 from bem.elements.contact import CONFORMING, ElementContact
 from bem.elements.gear_pair import GearModel
@@ -29,6 +30,7 @@ from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
 from bem.notes.checks import SLOPES_LARGE, YIELDS
 from bem.notes.elements import NO_HEAT, SURFACES_TOUCH
+from bem.quantities import with_unit
 from bem.scenes.checks.hertz import smooth_contact
 from bem.scenes.checks.plausible import notes_on_table
 from bem.scenes.oil import OilScene
@@ -133,8 +135,12 @@ class Element:
 
     def _oil_table(self) -> dict[str, Any]:
         """Table of the oil that comes into the contacts."""
-        table, given = dict(self.table["oil"]), self.model.bulk_temperature
-        return table if given is None or "viscosity" in table else table | {"temperature": given}
+        table = dict(self.table["oil"])
+        if self.model.bulk_temperature is None:
+            return table
+        warm = self._film_oil()
+        table["temperature"] = warm.temperature
+        return table if warm.viscosity is None else table | {"viscosity": warm.viscosity}
 
     def _no_contact(self) -> InputError:
         return InputError(f"{self.model.name}: no contact is left: {'; '.join(self.found.notes[:1])}")
@@ -222,7 +228,7 @@ class Element:
 
     def notes(self) -> tuple[Note, ...]:
         """Return the notes on the element, and on places where half-space and line film do not carry."""
-        notes = [*notes_on_table(self.model), *self.found.notes]
+        notes = [*notes_on_table(self.model), *self.found.notes, *self.model.viscosity_notes()]
         conforming = [one.name for one in self.found.contacts if one.conforming(self.modulus)]
         if conforming and not isinstance(self.model, PlainBushModel):  # whose contact is that of conforming bodies
             notes.append(SLOPES_LARGE(places=len(conforming), first=conforming[0], limit=CONFORMING, reason="element"))
@@ -274,7 +280,8 @@ class Element:
             )
         assumed = []
         if kind in (*MIXED, "surface-temperature"):
-            if "boundary_friction" not in self.model.model_fields_set:
+            dry = isinstance(self.model, PlainBushModel) and self.model.oil is None
+            if "boundary_friction" not in self.model.model_fields_set and not dry:
                 assumed.append(f"boundary friction {self.model.boundary_friction:g} is assumed")
             if self.model.rms_roughness is not None:
                 assumed.append("surfaces are random ones of its rms_roughness")
@@ -285,11 +292,27 @@ class Element:
         }
         bodies = self._body_tables()
         if kind == "contact":
-            return base | self._dry(contact, bodies)
+            made = base | self._dry(contact, bodies)
+            if contact.length is not None:
+                slice_width = with_unit(made["grid"]["lengths"][1], "m")
+                made["description"] += f"; a slice of {slice_width} of its {with_unit(contact.length, 'm')}"
+            return made
         if kind == "surface-temperature":
             self._check_heat()
-            return base | rubbing_scene(self.model, contact, bodies, self._patch_modulus)
+            rubbing = rubbing_scene(self.model, contact, bodies, self._patch_modulus)
+            if isinstance(self.model, PlainBushModel) and self.model.oil is None:
+                self._rub_as_the_bush(self.model, rubbing)
+            return base | rubbing
         return base | self._film(contact, bodies, kind)
+
+    @staticmethod
+    def _rub_as_the_bush(bush: PlainBushModel, scene: dict[str, Any]) -> None:
+        """Give a scene of kind surface-temperature friction and temperature of a dry bush, where they are known."""
+        power, _ = friction_power_of(bush, None)
+        if power is not None:
+            bulk = bush_temperature(bush, power)
+            scene["contact"]["friction"] = power / (bush.radial_load * bush.sliding_speed)
+            scene["heat"] |= {"lower_bulk": bulk, "upper_bulk": bulk}
 
     @property
     def _layered(self) -> bool:

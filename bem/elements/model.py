@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -11,12 +12,15 @@ from pydantic import Field, model_validator
 
 from bem.elements.contact import ElementContact
 from bem.notes import Note
+from bem.notes.elements import VISCOSITY_FIXED
 from bem.scenes.common import MaterialScene, PositiveLength, Table, problem
 from bem.scenes.oil import OilScene
 from bem.scenes.units import Dimension, Ratio, Temperature, Volume, WearCoefficient
 
 BOUNDARY_FRICTION = 0.12
 """Friction coefficient of asperity contacts without one of the element; steel in mineral oil has 0.10 to 0.15."""
+_SAME = 0.01
+"""Difference of temperatures [K] that counts as none."""
 Conductance = Annotated[float, Dimension("W/K", "a heat conductance", "30 W/K")]
 
 
@@ -59,7 +63,8 @@ class ElementModel(Table):
     micropitting. `mean_particle_volume`: mean volume of wear particles, measured (AFM) or of kinds wear and running-in,
     for their number per hour. `boundary_friction`: friction coefficient of asperity contacts. `bulk_temperature`: of
     both bodies below their surfaces, at which films are solved, or `heat_balance`, from which it follows; without both
-    the bodies are as warm as the oil.
+    the bodies are as warm as the oil. A given `oil.viscosity` follows it by `oil.temperature_viscosity` from
+    `oil.temperature`; without these it is that at the bulk temperature.
     """
 
     element: str
@@ -85,12 +90,53 @@ class ElementModel(Table):
             raise problem("heat_balance without the temperature of an oil", "oil.temperature beside heat_balance")
         return self
 
+    @model_validator(mode="after")
+    def _one_viscosity(self) -> Self:
+        oil, bulk = self.oil, self.bulk_temperature
+        if oil is None or bulk is None or oil.viscosity is None or oil.temperature_viscosity is not None:
+            return self
+        if oil.temperature is not None and not math.isclose(oil.temperature, bulk, abs_tol=_SAME):
+            raise problem(
+                "bulk_temperature differs from oil.temperature, at which oil.viscosity is given",
+                "oil.temperature_viscosity beside them, or oil.grade, or both temperatures alike",
+            )
+        return self
+
+    @property
+    def film_temperature(self) -> float | None:
+        """Temperature of the oil in the films [K]: that of the bodies where it is known, else its own."""
+        own = None if self.oil is None else self.oil.temperature
+        return own if self.bulk_temperature is None else self.bulk_temperature
+
     @property
     def film_oil(self) -> OilScene | None:
         """The oil as it comes into the contacts: as warm as the bodies where their temperature is given."""
-        if self.oil is None or self.bulk_temperature is None or self.oil.viscosity is not None:
+        if self.oil is None or self.bulk_temperature is None:
             return self.oil
-        return self.oil.model_copy(update={"temperature": self.bulk_temperature})
+        warm = self.film_temperature
+        assert warm is not None
+        changes = {"temperature": warm}
+        if self.oil.viscosity is not None and self.oil.temperature is not None:
+            softening = self.oil.temperature_viscosity or 0.0
+            changes["viscosity"] = self.oil.viscosity * math.exp(-softening * (warm - self.oil.temperature))
+        return self.oil.model_copy(update=changes)
+
+    @property
+    def viscosity_fixed(self) -> bool:
+        """True if a given viscosity does not follow the bulk temperature, which is known."""
+        oil = self.oil
+        if oil is None or self.bulk_temperature is None or oil.viscosity is None:
+            return False
+        return oil.temperature is None or oil.temperature_viscosity is None
+
+    def viscosity_notes(self) -> tuple[Note, ...]:
+        """Return a note on a given viscosity that does not follow a heat balance."""
+        oil, bulk = self.oil, self.bulk_temperature
+        if not self.viscosity_fixed or oil is None or bulk is None or oil.temperature is None:
+            return ()
+        if math.isclose(oil.temperature, bulk, abs_tol=_SAME):
+            return ()
+        return (VISCOSITY_FIXED(bulk=bulk - 273.15, oil=oil.temperature - 273.15),)
 
     @abstractmethod
     def contacts(self) -> Contacts:

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from bem.contact.conforming import ConformingBodies, ConformingContact, conforming_contact
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
+from bem.lubrication.oils.catalogue import find_oil
 from bem.materials import CATALOGUE, Material
 from bem.notes import Note
 from bem.notes.elements import BUSH_CONFORMS, BUSH_LEAKS, BUSH_SWINGS
@@ -29,10 +30,22 @@ HOUSING = "steel-52100"
 """Material around a wall where none is given; any metal is nearly rigid beside a polymer."""
 ROOM = 293.15
 """Temperature of the surroundings where none is given [K]."""
-DRY_FRICTION = 0.35
-"""Friction coefficient of a dry bush without one of the file; dry thermoplastics with filler have 0.15 to 0.40 (The
-Tribology Handbook, ed. M. J. Neale, table of rubbing bearing materials: known from an excerpt that a search showed, the
-page itself was not read), here near the upper end."""
+DRY_FRICTION = {
+    "peek": (
+        0.35,
+        "between 0.3, the highest of Lind et al. (Tribologia) at 120 °C, and 0.4 of data of PEEK 450G, both against "
+        "steel",
+    ),
+    "ptfe": (0.1, "unfilled on steel, about 0.1 in a catalogue of PBC Linear; 0.05 to 0.2, more at higher speed"),
+    "pom": (0.25, "0.15 to 0.25 in a supplier's table; 0.1 to 0.3 at rest on steel (CRC Materials Science Handbook)"),
+    "pa66": (0.3, "0.2 to 0.3 in a supplier's table; 0.32 of cast PA 6 (CRC Materials Science Handbook)"),
+}
+"""Friction coefficient of dry, unfilled bushes of the catalogue on steel, near the upper end, and where it is from.
+
+All are second hand, from abstracts and excerpts that a search showed; the pages themselves were not read. 0.05 of PTFE
+is in the abstract of doi 10.1108/eb052334; the supplier is Kintek, the handbook Shackelford's (table 399). Lind et al.:
+Friction and wear studies of some PEEK materials, abstract. The datum of PEEK 450G is quoted in a thread of eng-tips.
+"""
 TRANSFER, AREA_FACTOR = 15.0, 15.0
 """Without a conductance heat leaves by 15 W/(m^2 K) through 15 times diameter times length: still air around a small
 bearing block, the lower ends of the usual ranges 15 to 20 of both (DIN 31652, from memory, not checked)."""
@@ -45,6 +58,8 @@ FAR_FROM_CYLINDER = 0.05
 LONG = 5.0
 """Length over the width of the contact below which leakage at the ends is said: our choice, as no film of finite length
 was solved. What leaks is of the order of the square of width over length."""
+WATERY = 4000.0
+"""Heat capacity [J/(kg K)] from which a liquid is taken for water; glycol and water have up to 3900."""
 PressureVelocity = Annotated[float, Dimension("W/m^2", "a pressure times a speed", "0.2 MPa*m/s")]
 
 
@@ -58,11 +73,11 @@ class OscillationScene(Table):
 class PlainBushModel(ElementModel):
     """A shaft in a bush. Body 1 is the shaft, body 2 the bush.
 
-    `clearance`: bore less shaft diameter. `wall`: thickness of the bush; without it the material of the bush has no
-    end. `housing`: material around a bush with a wall, steel without it. `speed` or `oscillation`. `friction`:
-    coefficient of the whole bush; without it that of dry bushes, or with an oil that of film and asperities.
-    `pv_limit`: highest mean pressure times sliding speed. `maximum_temperature`: of the bush. `permitted_wear`: depth
-    at the load line at which the bush is worn out.
+    `clearance`: bore less shaft diameter; `bore` may stand in place of either. `wall`: thickness of the bush; without
+    it the material of the bush has no end. `housing`: material around a bush with a wall, steel without it. `speed` or
+    `oscillation`. `friction`: coefficient of the whole bush; without it that of `DRY_FRICTION`, or with an oil that of
+    film and asperities. `pv_limit`: highest mean pressure times sliding speed. `maximum_temperature`: of the bush.
+    `permitted_wear`: depth at the load line at which the bush is worn out.
     """
 
     element: Literal["plain-bush"] = "plain-bush"
@@ -78,6 +93,27 @@ class PlainBushModel(ElementModel):
     pv_limit: Annotated[PressureVelocity, Field(gt=0)] | None = None
     maximum_temperature: Temperature | None = None
     permitted_wear: PositiveLength | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_bore(cls, data: Any) -> Any:
+        if not isinstance(data, dict) or data.get("bore") is None:
+            return data
+        table = {key: value for key, value in data.items() if key != "bore"}
+        given = [key for key in ("shaft_diameter", "clearance") if data.get(key) is not None]
+        if len(given) != 1:
+            raise problem(
+                f"bore beside {'both' if given else 'neither'} of shaft_diameter and clearance",
+                "two of bore, shaft_diameter and clearance",
+            )
+        length = TypeAdapter(PositiveLength)
+        try:
+            bore, other = (length.validate_python(data[key]) for key in ("bore", given[0]))
+        except ValidationError:
+            return table | {"clearance": data["bore"]} if given[0] == "shaft_diameter" else table
+        if not bore > other:
+            raise problem(f"bore is not above {given[0]}", "bore = shaft_diameter + clearance")
+        return table | {"clearance" if given[0] == "shaft_diameter" else "shaft_diameter": bore - other}
 
     @model_validator(mode="after")
     def _one_temperature(self) -> Self:  # in place of the check that a heat balance has an oil: dry bushes have none
@@ -151,6 +187,37 @@ class PlainBushModel(ElementModel):
         """Highest temperature of the bush [K], given or of its material; None where neither is known."""
         known = SERVICE_TEMPERATURES.get(self.second.build().name)
         return self.maximum_temperature or (None if known is None else known[0])
+
+    @property
+    def balanced(self) -> bool:
+        """True if the bulk temperature is that of a heat balance, which `Element.at_bulk` puts in its place."""
+        return self.bulk_temperature is not None and "heat_balance" in self.model_fields_set
+
+    @property
+    def dry_friction(self) -> tuple[float, str] | None:
+        """Friction coefficient of the dry bush, and where it is from; None of a material that has none."""
+        return DRY_FRICTION.get(self.second.build().name)
+
+    @cached_property
+    def liquid_limits(self) -> tuple[float, float, float] | None:
+        """Temperatures [K] at which the liquid freezes, from which its water evaporates, and at which it boils.
+
+        None where they are not known. A liquid of given viscosity is water from a heat capacity of `WATERY` on.
+        """
+        liquid = None if self.oil is None else self.oil.oil
+        if liquid is None and self.oil is not None and (self.oil.heat_capacity or 0.0) >= WATERY:
+            liquid = find_oil("water")
+        if liquid is None or liquid.boiling_point is None or liquid.freezing_point is None:
+            return None
+        return liquid.freezing_point, liquid.largest_service or liquid.boiling_point, liquid.boiling_point
+
+    @property
+    def film_temperature(self) -> float | None:
+        """Temperature of the liquid in the film [K], within those at which it is one."""
+        found = super().film_temperature
+        if found is None or self.liquid_limits is None:
+            return found
+        return min(max(found, self.liquid_limits[0]), self.liquid_limits[2])
 
     @property
     def surroundings(self) -> float:

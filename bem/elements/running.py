@@ -12,12 +12,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from bem.elements.bush_friction import shared_friction
 from bem.elements.contact import ElementContact
 from bem.elements.element import Element
+from bem.elements.plain_bush import PlainBushModel
 from bem.elements.scuffing import flash_temperature
 from bem.errors import InputError, Status
 from bem.notes import Note
-from bem.notes.lubrication import FILM_SPIKE
+from bem.notes.lubrication import FILM_SPIKE, OIL_TOO_HOT
 from bem.notes.merge import merge
 from bem.scenes.load import load_scene
 
@@ -40,8 +42,9 @@ class Running:
     oil : mean temperature in the contact [K]. surface : the hotter surface at its hottest, flash included [K].
     notes : what the film says of its own limits.
     scatter : of the friction to smaller and larger values from the oil's constants; None but with shear_law "base_oil".
-    asperity_share : estimated share of the load on asperities; None without roughness. flash : flash temperature under
-    the film's friction [K]; None without the bodies' thermal constants.
+    asperity_share : share of the load on asperities, of a bush by kind friction, of others estimated; None without
+    roughness. flash : flash temperature under the film's friction [K]; None without the bodies' thermal constants.
+    mixed_friction : friction coefficient of film and asperities by kind friction; None where the share is an estimate.
     """
 
     contact: ElementContact
@@ -56,6 +59,7 @@ class Running:
     scatter: tuple[float, float] | None = None
     asperity_share: float | None = None
     flash: float | None = None
+    mixed_friction: float | None = None
 
     @property
     def converged(self) -> bool:
@@ -80,6 +84,9 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
     found = case.on(POINTS)
     figures = traction_figures(case, found)
     hottest = max((figures[f"{body}_temperature"] for body in ("lower", "upper")), default=None) if case.hot else None
+    shared = shared_friction(element, contact)
+    if shared is not None and shared.hottest is not None:
+        hottest = max(shared.hottest, hottest or 0.0)
     return Running(
         contact,
         found.status,
@@ -89,11 +96,19 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
         figures["friction_power"],
         figures.get("film_temperature"),
         hottest,
-        tuple(found.notes),
+        _film_notes(element, found.notes),
         _scatter(found, scene.oil.build()),
-        _asperity_share(element, figures["central_thickness"]),
+        _asperity_share(element, figures["central_thickness"]) if shared is None else shared.asperity_share,
         flash_temperature(contact, figures["traction_coefficient"], modulus=element.modulus, bodies=element.bodies),
+        None if shared is None else shared.friction,
     )
+
+
+def _film_notes(element: Element, notes: Sequence[Note]) -> tuple[Note, ...]:
+    """Return the notes on a film, without that on a hot liquid where the bush's own answer says when it boils."""
+    model = element.model
+    told = isinstance(model, PlainBushModel) and model.liquid_limits is not None
+    return tuple(note for note in notes if not (told and note.code == OIL_TOO_HOT.code))
 
 
 def _asperity_share(element: Element, central_film: float) -> float | None:

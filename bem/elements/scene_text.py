@@ -14,6 +14,7 @@ _DIGITS = 6
 _UNITS = {
     **dict.fromkeys(("lower_bulk", "upper_bulk", "temperature"), "K"),
     **dict.fromkeys(("load", "loads"), "N"),
+    "viscosity": "Pa*s",
     **dict.fromkeys(("film_modulus", "youngs_modulus"), "Pa"),
     **dict.fromkeys(("values", "mean_speed", "lower_speed", "upper_speed"), "m/s"),
     **dict.fromkeys(("roughness", "rms_height", "rolloff_wavelength", "cutoff_wavelength"), "m"),

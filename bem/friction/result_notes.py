@@ -8,18 +8,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
 
+from bem.contact.conforming import modulus_on_layer
 from bem.convolution import couples
-from bem.errors import Status
+from bem.errors import InputError, Status
 from bem.friction.balance import Balance
 from bem.friction.film import PatchFilm
 from bem.friction.forces import Forces
 from bem.friction.oil_sensitivity import OilVolumeSensitivity
 from bem.friction.oil_volume import OilVolume
 from bem.friction.setup import MixedSetup
+from bem.friction.smooth import LineContact
 from bem.materials import Body
 from bem.notes import Level, Note
 from bem.notes.contact import FRICTION_ON_PRESSURE
@@ -83,8 +86,31 @@ def coating_notes(setup: MixedSetup) -> tuple[Note, ...]:
                 body.material.plane_strain_modulus / layer.material.plane_strain_modulus,
             )
             if ratio > THICK_LAYER and max(stiffer, 1 / stiffer) > UNLIKE_LAYER:
-                return (FILM_WITHOUT_LAYERS(ratio=float(ratio), stiffer=float(stiffer), reason="thick"),)
+                values: dict[str, Any] = {"ratio": float(ratio), "stiffer": float(stiffer)}
+                modulus = _modulus_on_layer(setup, bodies)
+                if modulus is None:
+                    return (FILM_WITHOUT_LAYERS(**values, reason="thick"),)
+                reason = "thick-repeats" if setup.repeated_cell else "thick-held"
+                return (FILM_WITHOUT_LAYERS(**values, modulus=modulus, reason=reason),)
     return (FILM_WITHOUT_LAYERS(ratio=float(thickest / half_width), reason="thin"),)
+
+
+def _modulus_on_layer(setup: MixedSetup, bodies: tuple[Body, ...]) -> float | None:
+    """Return the contact modulus with which the film's cylinder is as wide as on the layer of one of two bodies [Pa].
+
+    None under a ball, without a second body, and with other layers than one.
+    """
+    contact = setup.smooth
+    layers = [layer for body in bodies for layer in body.layers]
+    if not isinstance(contact, LineContact) or len(bodies) != 2 or len(layers) != 1:
+        return None
+    bare, coated = sorted(bodies, key=lambda body: len(body.layers))
+    with suppress(InputError):  # a layer too thin or a contact too wide for this solution
+        return modulus_on_layer(
+            bare.material, layers[0].material, coated.material,
+            thickness=layers[0].thickness, radius=contact.radius, load=setup.load / contact.width,
+        )  # fmt: skip
+    return None
 
 
 def coupling_notes(forces: Forces, traction: float, setup: MixedSetup) -> tuple[Note, ...]:

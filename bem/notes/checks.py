@@ -197,7 +197,8 @@ CYLINDER_NARROW = define(
     CAUTION,
     "The cylinder is too narrow for a line contact.",
     "Its length is {ratio:.2g} times the contact width 2a; a line contact needs five.",
-    "Check width, or take an ellipsoid in kind contact.",
+    "Make the cylinder longer, or the contact narrower by less load or a smaller radius; else take the film as an "
+    "upper bound, as oil leaves at both ends.",
 )
 
 # The mesh

@@ -83,10 +83,10 @@ FOLLOWER_PASSED_OFTEN = define(
 BUSH_CONFORMS = define(
     "bush-conforms",
     CAUTION,
-    "Shaft and bush conform: film and scenes are of an equivalent cylinder on a flat.",
-    "The contact reaches {angle:.0f} degrees to either side. Against it the equivalent cylinder on a flat deviates by"
-    " {pressure:+.0%} in peak pressure and {width:+.0%} in width.",
-    "Take films, lambda ratio and scenes as estimates.",
+    "The contact wraps around the shaft; film and scenes are of a flat one.",
+    "The contact reaches {angle:.0f} degrees to either side. The contact of a cylinder on a flat, of which films and "
+    "scenes are, deviates from it by {pressure:+.0%} in peak pressure and {width:+.0%} in width.",
+    "Take films, lambda ratio and scenes as estimates; peak pressure and wear here are those of the wrapped contact.",
 )
 BUSH_SWINGS = define(
     "bush-swings",
@@ -118,25 +118,66 @@ BUSH_OVER_LIMIT = define(
         ),
     },
 )
+VISCOSITY_FIXED = define(
+    "viscosity-fixed",
+    CAUTION,
+    "The viscosity does not follow the heat balance.",
+    "The bodies have {bulk:.0f} °C; films have the viscosity that is given for {oil:.0f} °C.",
+    "Give oil.temperature_viscosity, or oil.grade.",
+)
+BUSH_LIQUID_LOST = define(
+    "bush-liquid-lost",
+    CAUTION,
+    "The liquid does not stay in the bush.",
+    "",
+    "Lead off more heat (heat_balance), lower friction, load or speed, or keep the liquid under pressure; film and "
+    "friction do not hold.",
+    reasons={
+        "boils": Reason(
+            "The bush has {bush:.0f} °C, its surface {rise:.2g} K more; at ambient pressure the liquid boils at "
+            "{limit:.0f} °C.",
+            headline="The liquid boils in the bush.",
+        ),
+        "evaporates": Reason(
+            "The bush has {bush:.0f} °C, its surface {rise:.2g} K more; the liquid should stay below {limit:.0f} °C.",
+            headline="The water of the liquid evaporates.",
+        ),
+        "freezes": Reason(
+            "The bush has {bush:.0f} °C, the liquid freezes at {limit:.0f} °C.",
+            "Take a liquid with more glycol, or a warmer bush.",
+            headline="The liquid freezes in the bush.",
+        ),
+    },
+)
+BUSH_TOUCHES = define(
+    "bush-touches",
+    CAUTION,
+    "Surfaces touch: the film is thinner than the roughness (lambda below 1).",
+    "",
+    "For your measured surfaces run the scene that `bem element FILE --scene mixed.toml --kind friction` writes.",
+    reasons={
+        "solved": "Asperities carry {share:.0%} of the load, for a random ground shaft with the roughness given.",
+        "estimated": "By an estimate asperities carry {share:.0%} of the load.",
+    },
+)
 BUSH_WARMER_THAN_OIL = define(
     "bush-warmer-than-oil",
     CAUTION,
     "The bush is warmer than the liquid that its film was solved with.",
-    "The bush has {bush:.0f} °C, given or by the heat balance; its film and friction are those of the liquid at "
-    "{oil:.0f} °C.",
+    "The bush has {bush:.0f} °C by the heat balance; its film and friction are those of the liquid at {oil:.0f} °C.",
     "Give the conductance of your housing and of the liquid that flows through (heat_balance), or a warmer liquid.",
 )
 BUSH_WEARS_IN_FILM = define(
     "bush-wears-in-film",
     CAUTION,
     "Wear and life are those of rubbing surfaces, but a film carries the load.",
-    "Asperities have {share:.1%} of the load by estimate.",
+    "Asperities have {share:.1%} of the load.",
     "Take the specific wear rate of starts and stops, or of a test in this lubricant at this lambda ratio.",
 )
 BUSH_LEAKS = define(
     "bush-leaks",
     CAUTION,
-    "Oil leaves the bush at its ends, which a line film leaves out.",
+    "Liquid leaves this short bush at its ends, which the film leaves out.",
     "The bush is only {ratio:.2g} times as long as the contact is wide.",
     "Take film and lambda ratio as upper bounds.",
 )

@@ -54,6 +54,11 @@ FLATTENED_TOO_HIGH = define(
         " flattens nothing, and the load is shared with undeformed roughness.",
     },
 )
+_THICK_LAYER = "A layer as thick as the contact is wide is left out of the film."
+_THICK = (
+    "Film, half-width and patch are those of the bodies below the layers, whose modulus is {stiffer:.2g} times that of "
+    "a layer {ratio:.2g} half-widths thick."
+)
 FILM_WITHOUT_LAYERS = define(
     "film-without-layers",
     INFO,
@@ -61,11 +66,23 @@ FILM_WITHOUT_LAYERS = define(
     reasons={
         "thin": "Only the rough contact feels the layers, which are {ratio:.2g} of the contact's half-width thick.",
         "thick": Reason(
-            "Film, half-width and patch are those of the bodies below the layers, whose modulus is {stiffer:.2g} times"
-            " that of a layer {ratio:.2g} half-widths thick.",
+            _THICK,
             "Give the layer's material as that of the body.",
             level=OUTSIDE_MODEL,
-            headline="A layer as thick as the contact is wide is left out of the film.",
+            headline=_THICK_LAYER,
+        ),
+        "thick-repeats": Reason(
+            _THICK,
+            'Set sharing.film_modulus = "{modulus:si Pa}": with it the film is of a contact as wide as on the layer.',
+            level=OUTSIDE_MODEL,
+            headline=_THICK_LAYER,
+        ),
+        "thick-held": Reason(
+            _THICK,
+            "In kind friction leave out [grid], so that the rough patch repeats, and set sharing.film_modulus = "
+            '"{modulus:si Pa}": with it the film is of a contact as wide as on the layer.',
+            level=OUTSIDE_MODEL,
+            headline=_THICK_LAYER,
         ),
     },
 )

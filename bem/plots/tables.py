@@ -85,6 +85,7 @@ _LABELS = {
     "minimum_thickness": "minimum film thickness",
     "central_thickness": "central film thickness",
     "minimum_film": "minimum film thickness (under the film's load)",
+    "minimum_film_whole": "minimum film thickness (under the whole load)",
     "lambda_ratio": "lambda ratio (under the whole load)",
     "lambda_ratio_initial": "lambda ratio (under the whole load), initial",
     "lambda_ratio_mixed": "lambda ratio (under the film's load)",

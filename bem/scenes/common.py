@@ -277,7 +277,7 @@ class MaterialScene(Table):
             constants["stiffness"] = {"crystal": stiffness.crystal, **stiffness.by_name}
             del constants["youngs_modulus"], constants["poissons_ratio"]
         if own:
-            constants["source"] = f"{entry.source}; changed in the scene: {', '.join(sorted(own))}"
+            constants["source"] = f"{entry.source}. The scene itself gives {', '.join(sorted(own))}"
         if "hardness" in own and "yield_stress" not in own:
             constants["yield_stress"] = None  # follows the new hardness
         return constants | own

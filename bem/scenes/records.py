@@ -139,6 +139,8 @@ class Series:
 
 MINIMUM_FILM = "minimum film thickness under the film's part of the load"
 """Meaning of the minimum film of mixed lubrication; over Sq it is the ratio `LAMBDA_MIXED`, not `LAMBDA_WHOLE`."""
+MINIMUM_FILM_WHOLE = "minimum film thickness of smooth surfaces under the whole load"
+"""Meaning of the minimum film whose ratio to Sq is `LAMBDA_WHOLE`."""
 LAMBDA_WHOLE = "lambda ratio: minimum film thickness under the whole load over the combined roughness Sq"
 LAMBDA_MIXED = "lambda ratio of the film under its part of the load, over the combined roughness Sq"
 """The two lambda ratios. Where film and contact share the load, the film that carries its part alone is thicker than

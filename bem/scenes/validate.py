@@ -21,8 +21,10 @@ MOST_MESSAGES = 20
 REMOVED_KEYS = {
     "sharing.striated_exit": "removed; leave it out: the film's friction ends at its exit, without the 2 to 8 % of oil "
     "streamers behind it",
+    "oil.name": "unknown key; write grade, a name that `bem oils` lists, such as grade = "
+    '"ISO VG 32", "water-glycol 46" or "water", or viscosity of a liquid of your own',
 }
-"""Keys that scenes of earlier versions had, and what to write in their place."""
+"""Keys that scenes of earlier versions had or that users expect, and what to write in their place."""
 Model = TypeVar("Model", bound=BaseModel)
 
 

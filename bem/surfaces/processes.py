@@ -160,7 +160,7 @@ def statistics_beside(process: Process, data: Mapping[str, Any]) -> dict[str, An
     for marks in asked:
         own += [f"{marks}.{key}" for key in data[marks]]
         found[marks] = {**getattr(process, marks), **data[marks]}
-    changed = f"; changed in the scene: {', '.join(sorted(own))}" if own else ""
+    changed = f". The scene itself gives {', '.join(sorted(own))}" if own else ""
     return {**known, "source": f"{process.title}. {process.source}{changed}", **found}
 
 

@@ -12,6 +12,7 @@ from bem.friction.models import films_of, rough_contact
 from bem.friction.result_notes import coating_notes
 from bem.friction.setup import MixedSetup
 from bem.friction.solve import solve_setup
+from bem.materials import contact_modulus
 from bem.notes import Level
 from bem.surfaces.waves import on_cells
 
@@ -164,12 +165,18 @@ def test_error_bars_cover_the_finer_patch():
 def test_a_soft_layer_thicker_than_the_contact_is_outside_the_film_s_model():
     soft = Material(name="polymer", youngs_modulus=3.7e9, poissons_ratio=0.4)
 
-    def notes(thickness, material=soft):
+    def notes(thickness, material=soft, grid=CELL):
         coated = Body(STEEL.material, layer=Layer(material, thickness))
-        return coating_notes(MixedSetup(**{**LINE, "grid": CELL, "bodies": (STEEL, coated)}))
+        return coating_notes(MixedSetup(**{**LINE, "grid": grid, "bodies": (STEEL, coated)}))
 
     (note,) = notes(100e-6)
     assert note.level is Level.OUTSIDE_MODEL
     assert note.values["stiffer"] == pytest.approx(227.5 / 4.405, rel=1e-3)
+    (thick,) = notes(20e-3)  # where the contact is as wide as on the layer's material, and 0.04 radii: 4 % too stiff
+    assert thick.values["modulus"] == pytest.approx(contact_modulus(STEEL.material, soft), rel=0.05)
+    assert note.values["modulus"] > 1.5 * thick.values["modulus"]
+    assert "Set sharing.film_modulus" in note
+    (held,) = notes(100e-6, grid=PATCH)
+    assert "leave out [grid]" in held
     for thin in (notes(20e-6), notes(100e-6, STEEL.material)):
         assert [note.level for note in thin] == [Level.INFO]

@@ -81,6 +81,7 @@ def test_both_lambda_ratios_stand_under_their_own_keys(friction):
     summary = friction.summary
     mixed, whole = summary["lambda_ratio_mixed"], summary["lambda_ratio"]
     np.testing.assert_allclose(np.multiply(mixed, summary["Sq_nm"]), summary["minimum_film_nm"], rtol=1e-12)
+    np.testing.assert_allclose(np.multiply(whole, summary["Sq_nm"]), summary["minimum_film_whole_nm"], rtol=1e-12)
     assert mixed[0] > 1.5 * whole[0]  # a film that carries a part of the load is thicker
     assert mixed[1] == pytest.approx(whole[1], rel=1e-9)  # in full film it carries all
     assert "whole load" in friction.variables["lambda_ratio"].description

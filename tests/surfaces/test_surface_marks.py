@@ -184,7 +184,7 @@ def test_a_honed_surface_is_near_its_catalogue():
     honed = PROCESSES["honed"]
     assert found.Sq == pytest.approx(honed.rms_height, rel=0.2)
     assert found.Ssk < honed.skewness
-    assert "changed in the scene: cross_hatch.angle" in surface.source
+    assert "The scene itself gives cross_hatch.angle" in surface.source
 
 
 @pytest.mark.internal

@@ -105,7 +105,7 @@ def test_a_resolved_surface_keeps_its_process():
 def test_what_is_given_beside_a_process_wins():
     surface = scene_of(process="polished", rms_height="5 nm", correlation_length="4 um").lower.surface
     assert (surface.rms_height, surface.correlation_length, surface.hurst) == (5e-9, 4e-6, None)
-    assert "changed in the scene: correlation_length, rms_height" in surface.source
+    assert "The scene itself gives correlation_length, rms_height" in surface.source
     surface = scene_of(process="ground", hurst=0.7).lower.surface
     assert (surface.hurst, surface.correlation_length, surface.elongation) == (0.7, None, None)
 

@@ -31,6 +31,7 @@ from bem.plots.style import (
     prefix,
     speed_axis,
 )
+from bem.quantities import with_unit
 from bem.scenes.records import INPUTS
 
 _COLOURS = (BLUE, VERMILION, GREEN, ORANGE, SKY, PINK, BLACK) * 9
@@ -156,8 +157,9 @@ def _section(run: Any, figure: Figure) -> None:
     upper.set_ylim(low * 1.05, max(high, deformed[seen].max() * 1e9 * 1.4))
     upper.set_ylabel("height (nm)")
     upper.legend(fontsize=8, ncols=2, loc="upper center")
+    apart = float(shift.mean())
     upper.set_title(
-        f"surfaces {1e9 * float(shift.mean()):.3g} nm closer than the film",
+        f"mean planes {with_unit(abs(apart), 'm')} {'closer' if apart > 0 else 'farther'} than the film is thick",
         fontsize=8.5,
     )
     lower.plot(x[seen] * factor_x, data["film_pressure_patch"].values[seen] * 1e-6, color=BLUE, label="film")

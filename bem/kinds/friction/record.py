@@ -16,6 +16,7 @@ from bem.scenes.records import (
     LAMBDA_MIXED,
     LAMBDA_WHOLE,
     MINIMUM_FILM,
+    MINIMUM_FILM_WHOLE,
     OIL,
     OIL_SCATTER,
     Figure,
@@ -50,7 +51,8 @@ class CurveRecord(Record):
     film_part: Annotated[FloatArray, _curve("", "film part of friction coefficient", name="film_friction_part")]
     contact_load: Annotated[FloatArray, _curve("N", "load carried by asperities", headline=True, part_of=_LOADS)]
     film_load: Annotated[FloatArray, _curve("N", "load carried by the film", headline=True, part_of=_LOADS)]
-    minimum_film: Annotated[FloatArray, _curve("nm", MINIMUM_FILM, headline=True)]
+    minimum_film: Annotated[FloatArray, _curve("nm", MINIMUM_FILM)]
+    minimum_film_whole: Annotated[FloatArray, _curve("nm", MINIMUM_FILM_WHOLE, headline=True)]
     lambda_ratio: Annotated[FloatArray, _curve("", LAMBDA_WHOLE, headline=True)]
     lambda_ratio_mixed: Annotated[FloatArray, _curve("", LAMBDA_MIXED)]
     contact_area_fraction: Annotated[FloatArray, _curve("", "real contact area over patch")]

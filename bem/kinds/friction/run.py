@@ -168,6 +168,10 @@ def _record(
     rms = float(height.std())
     to_ratio = 1 / rms if rms > 0 else math.inf
     for each in (bars, *parts.values()):
+        if "lambda_ratio" in each and rms > 0:
+            each["minimum_film_whole"] = rms * each["lambda_ratio"]
+        elif "minimum_film" in each:
+            each["minimum_film_whole"] = each["minimum_film"]
         if "minimum_film" in each:
             each["lambda_ratio_mixed"] = (
                 to_ratio * each["minimum_film"] if rms > 0 else np.full_like(each["minimum_film"], np.nan)
@@ -177,6 +181,7 @@ def _record(
         displacement = shown.contact.displacement
     return CurveRecord(
         **rows,
+        minimum_film_whole=rms * rows["lambda_ratio"] if rms > 0 else rows["minimum_film"],
         lambda_ratio_mixed=to_ratio * rows["minimum_film"],
         rms_height=rms,
         shown_speed=np.array(shown.speeds[0]),

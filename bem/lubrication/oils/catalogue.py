@@ -54,7 +54,7 @@ def oil_names() -> tuple[str, ...]:
 
 def find_oil(name: str, *, viscosity_index: float | None = None, base: str | None = None) -> Oil:
     """The oil of a name or grade: "ISO VG 68", "VG68", "SAE 30", "5W-30", "75W-90", "PAO 6", "squalane",
-    "water-glycol 46"; case, blanks and hyphens do not matter.
+    "water", "water-glycol 46"; case, blanks and hyphens do not matter.
 
     Parameters
     ----------
@@ -153,10 +153,6 @@ _PAG = 'give an ISO grade with base = "pag", such as grade = "ISO VG 220", base 
 _NO_OIL = {
     "grease": "grease has no entry: take its base oil, by grade or viscosities from the maker's sheet, and a table "
     "[supply] where the contact starves",
-    "water": 'water has no entry: give viscosity = "0.653 mPa*s" (at 40 degC; 1.00 at 20, 0.890 at 25, 0.466 at 60) '
-    'and pressure_viscosity = "0 1/GPa" in [oil], its films are isoviscous; for heat also temperature = "40 degC", '
-    'density = "992 kg/m^3", heat_capacity = '
-    '"4180 J/(kg*K)", thermal_conductivity = "0.63 W/(m*K)" and temperature_viscosity = "0.019 1/K"',
     **dict.fromkeys(("pag", "polyglycol", "polyalkylene"), f"the grade is missing: {_PAG}"),
 }
 """Lubricants that are not in the catalogue, and what to give instead."""
@@ -173,7 +169,7 @@ def _unknown(name: str) -> InputError:
     close = difflib.get_close_matches(_squeezed(name), known, n=1, cutoff=0.6)
     hint = f' - did you mean "{known[close[0]]}"?' if close else ""
     return InputError(
-        f'oil "{name[:60]}": unknown{hint}; allowed: ISO VG, SAE and PAO grades, squalane, esters, water-glycol '
+        f'oil "{name[:60]}": unknown{hint}; allowed: ISO VG, SAE and PAO grades, squalane, esters, water, water-glycol '
         "(`bem oils` lists them), or viscosities of your own"
     )
 
@@ -251,7 +247,7 @@ def _named(name: str, table: Mapping[str, Any]) -> Oil:
     law: OverTemperature
     if "temperatures" in table:
         pairs = zip(table["temperatures"], table["viscosities"], strict=True)
-        law = ViscosityTable.through([(t + CELSIUS, v * MM2_S) for t, v in pairs])
+        law = LAWS[table.get("law", ViscosityTable.name)].through([(t + CELSIUS, v * MM2_S) for t, v in pairs])
     elif "viscosity" in table:
         law = _from_index(*table["viscosity"])
     elif "viscosity_100" in table:
@@ -262,7 +258,7 @@ def _named(name: str, table: Mapping[str, Any]) -> Oil:
 
 
 def _made(name: str, base: str, law: OverTemperature, source: str, own: Mapping[str, Any]) -> Oil:
-    table = {**_data()["base"][base], **own}
+    table = {**_data()["base"].get(base, {}), **own}
     alpha = correlation(table["pressure_viscosity"]) if "pressure_viscosity" in table else None
     if alpha is not None and "pressure_viscosity_source" in table:
         alpha = dataclasses.replace(alpha, source=f"{table['pressure_viscosity_source']}: {alpha.source}")

@@ -57,8 +57,8 @@ class Oil:
     Attributes
     ----------
     name : such as "ISO VG 68".
-    base : "mineral" (paraffinic), "naphthenic", "pao", "ester", "pag", "water-glycol" or "traction", or a word of
-        your own.
+    base : "mineral" (paraffinic), "naphthenic", "pao", "ester", "pag", "water-glycol", "traction" or "water", or a word
+        of your own.
     viscosity : law of the kinematic viscosity.
     viscosity_source : of its points.
     density, heat_capacity, thermal_conductivity : lines [kg/m^3, J/(kg K), W/(m K)]; None where it is not known.

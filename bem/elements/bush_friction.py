@@ -1,0 +1,64 @@
+"""Friction of film and asperities of a lubricated bush, by the balance of kind friction.
+
+The scene is the one that `bem element --scene FILE --kind friction` writes, so that element and scene agree.
+Verified in tests/elements/test_plain_bush.py.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from bem.elements.contact import ElementContact
+from bem.elements.element import Element
+from bem.elements.plain_bush import PlainBushModel
+from bem.errors import InputError, Status
+from bem.scenes.context import PlainContext
+
+
+@dataclass(frozen=True)
+class SharedFriction:
+    """Balance of film and asperities of a bush.
+
+    Attributes
+    ----------
+    friction : coefficient of film and asperities. asperity_share : of the load. hottest : highest temperature of the
+        touching surfaces [K]; None without heat or contact.
+    """
+
+    friction: float
+    asperity_share: float
+    hottest: float | None
+
+
+class _FirstRepetition(PlainContext):
+    """Context with the random surfaces that a run of the scene has in its first repetition."""
+
+    def seed(self, purpose: str, *indices: int) -> int:
+        """See `bem.scenes.context.Context`."""
+        return super().seed(purpose, 0, *indices)
+
+
+def shared_friction(element: Element, contact: ElementContact) -> SharedFriction | None:
+    """Solve the load sharing of one contact of a bush between its film and a ground shaft of the given roughness.
+
+    Return None for other elements, without roughness, where no such scene can be made, and where the balance does not
+    converge.
+    """
+    model = element.model
+    if not isinstance(model, PlainBushModel) or model.rms_roughness is None or model.oil is None:
+        return None
+    from bem.kinds.friction.kind import KIND
+    from bem.kinds.friction.run import run
+    from bem.scenes.load import load_scene
+
+    try:
+        scene = KIND.resolved(load_scene(element.scene(contact, "friction") | {"outputs": {"errors": False}}))
+        record = run(scene, _FirstRepetition(scene.seed))
+    except InputError:
+        return None
+    if record.status is not Status.CONVERGED:
+        return None
+    flash = record.flash_temperature
+    hottest = None if flash is None or not math.isfinite(flash[0]) else float(flash[0])
+    return SharedFriction(float(record.friction[0]), float(record.contact_load[0]) / contact.load, hottest)
