@@ -65,7 +65,9 @@ NO_ERROR_BAR = define(
         ),
         NoBar.IMPOSSIBLE: "What is prescribed cannot be met on the grid of twice the cell.",
         NoBar.NARROW_RING: "The zone that slips is narrower than a cell, and its energy follows the cells; take more.",
-        NoBar.SHARP_PRESSURE: "The contact has sharp edges or ridges, where the pressure has no limit.",
+        NoBar.SHARP_PRESSURE: (
+            "The contact has sharp edges or ridges, where pressures, and stresses close below them, have no limit."
+        ),
         NoBar.EVEN_CELLS: "Error bars need even numbers of cells, {fewest} at least.",
         NoBar.EVEN_CELLS_OF_LOOP: (
             "A coarser run needs even numbers of cells, {fewest} at least (or, along y, surfaces that do not "
@@ -146,6 +148,30 @@ ACCURACY = define(
 def no_error_bar(names: Iterable[str], reason: NoBar, **values: Any) -> Note:
     """Return the note on figures without error bars; names as of a record's fields."""
     return NO_ERROR_BAR(figures=named(names), reason=reason, **values)
+
+
+def one_note_per_cause(notes: Iterable[Note]) -> list[Note]:
+    """Return the notes, those on missing error bars of one cause as one that names all of its figures."""
+    notes = list(notes)
+    reasons = {note.values["reason"] for note in notes if note.code == NO_ERROR_BAR.code}
+    found: dict[Any, Note] = {}
+    for number, note in enumerate(notes):
+        if note.code != NO_ERROR_BAR.code:
+            found[number] = note
+            continue
+        reason = _WIDER_CAUSES.get(note.values["reason"], note.values["reason"])
+        values = {**note.values, "reason": reason if reason in reasons else note.values["reason"]}
+        figures = values.pop("figures")
+        cause = note.where, note.level, *sorted((key, str(value)) for key, value in values.items())
+        before = found[cause].values["figures"] if cause in found else []
+        found[cause] = NO_ERROR_BAR(
+            note.where, level=note.level, figures=list(dict.fromkeys([*before, *figures])), **values
+        )
+    return list(found.values())
+
+
+_WIDER_CAUSES = {NoBar.STRESS_OF_SHARP: NoBar.SHARP_PRESSURE}
+"""Reasons that another one covers where both are given."""
 
 
 def named(names: Iterable[str]) -> list[str]:

@@ -202,6 +202,7 @@ CYLINDER_NARROW = define(
 )
 
 # The mesh
+_ROUGHNESS_OF_BODY = "The cells do not resolve the roughness of the {body} body; pressures follow the mesh."
 ROUGHNESS_UNRESOLVED = define(
     "roughness-unresolved",
     CAUTION,
@@ -212,13 +213,14 @@ ROUGHNESS_UNRESOLVED = define(
             "Give cutoff_wavelength, 4 to 8 cells or more.",
         ),
         "wave": Reason(
-            "There are {cells:.2g} cells to the shortest wave of the {body} surface ({wave:si m}): contact spots come"
-            " down to single cells.",
+            "There are {cells:.2g} cells to its shortest wave ({wave:si m}): contact spots come down to single cells.",
             "Take a spacing of {spacing:si m}, or {average:si m} for averages.",
+            headline=_ROUGHNESS_OF_BODY,
         ),
         "correlation": Reason(
-            "The correlation length of the {body} surface, {length:si m}, is {cells:.2g} cells.",
+            "Its correlation length, {length:si m}, is {cells:.2g} cells.",
             "Take a spacing of {spacing:si m} or less.",
+            headline=_ROUGHNESS_OF_BODY,
         ),
         "film": Reason(
             "Heights in the film change from cell to cell by {change:.1f} of their rms, as waves of {cells:.2g} cells"

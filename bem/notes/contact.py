@@ -51,6 +51,11 @@ CONTACT_UNRESOLVED = define(
             "Set spacing to {spacing:si m} (20 cells across; {fewest} is the least).",
             headline="The grid has few cells across the Hertz contact.",
         ),
+        "few-cells": Reason(
+            "Area, mean pressure and maximum pressure follow the cells; the mean pressure may even exceed the maximum.",
+            "Take a larger load or a finer grid; of a measured surface measure with a finer spacing.",
+            headline="The cells do not resolve the contact: only {cells:count cell} in contact.",
+        ),
         "spots": Reason(
             "The true area lies between the load over the hardness and the counted area{of}, which is {times:.2f}"
             " times larger.",

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from bem.errors import Status
 from bem.notes import Note, as_note
+from bem.notes.accuracy import one_note_per_cause
 from bem.notes.merge import merge
 from bem.numerics.blocks import row_blocks
 from bem.plausibility import without_argument_notes
@@ -207,7 +208,7 @@ def error_bars(context: Context, wanted: bool, bars: Callable[[], Bars]) -> dict
         return {}
     with context.timer("error bars"):
         found = bars()
-    tell(context, found.notes)
+    tell(context, one_note_per_cause(found.notes))
     return {"errors": dict(found.values), "error_parts": dict(found.parts)}
 
 

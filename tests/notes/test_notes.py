@@ -7,10 +7,11 @@ import string
 import pytest
 
 from bem.notes import OUTSIDE, Level, Note, Reason, Span, as_note, has_code, of_summary, outside, unpacked, without
+from bem.notes.accuracy import NoBar, no_error_bar, one_note_per_cause
 from bem.notes.catalogue import known_kinds
 from bem.notes.checks import HARDNESS_DECIDES
 from bem.notes.friction import FRICTION_UNPHYSICAL
-from bem.notes.lubrication import FILM_MOLECULAR, FILM_NOT_FOUND, FLOW_FACTORS_LIMIT, OIL_CREATED
+from bem.notes.lubrication import FILM_MOLECULAR, FILM_NOT_FOUND, FILM_SPIKE, FLOW_FACTORS_LIMIT, OIL_CREATED
 from bem.notes.merge import merge, without_foreseen
 
 pytestmark = pytest.mark.internal
@@ -100,3 +101,18 @@ def test_code_tells_notes_apart_whatever_their_words():
     assert as_note(notes[0]) is notes[0]
     plain = as_note("what a law of yours says")
     assert (type(plain), plain.level, str(plain)) == (Note, Level.CAUTION, "what a law of yours says")
+
+
+def test_figures_without_error_bars_for_one_cause_have_one_note():
+    """The contact, the stresses and the coating each said that the contact reaches a free edge."""
+    edge = [no_error_bar([name], NoBar.FREE_EDGE) for name in ("load", "max_von_mises", "load")]
+    sharp = no_error_bar(["max_pressure"], NoBar.SHARP_PRESSURE), no_error_bar(["max_von_mises"], NoBar.STRESS_OF_SHARP)
+    other = FILM_SPIKE(remedy="")
+    assert one_note_per_cause([edge[0], other, *edge[1:]]) == [
+        no_error_bar(["load", "max_von_mises"], NoBar.FREE_EDGE),
+        other,
+    ]
+    assert one_note_per_cause(sharp) == [no_error_bar(["max_pressure", "max_von_mises"], NoBar.SHARP_PRESSURE)]
+    assert one_note_per_cause(sharp[1:]) == [sharp[1]]
+    few = [no_error_bar(["load"], NoBar.EVEN_CELLS, fewest=n) for n in (8, 12)]
+    assert one_note_per_cause(few) == few

@@ -178,7 +178,7 @@ CASES = {
         BALL,
     ),
     "few_cells_per_wave": (
-        (with_(ROUGH, lower__surface=self_affine(cutoff_wavelength="1.5 um")), "2.4 cells to the shortest wave"),
+        (with_(ROUGH, lower__surface=self_affine(cutoff_wavelength="1.5 um")), "2.4 cells to its shortest wave"),
         with_(ROUGH, lower__surface=self_affine(cutoff_wavelength="2.5 um")),
     ),
     "few_cells_per_correlation_length": (
@@ -360,7 +360,7 @@ def test_cells_of_an_elongated_surface_are_looked_at_along_each_axis():
     ridges = {"lower__surface__correlation_length": "12 um", "lower__surface__elongation": 1 / 9}
     name, lengths = "few_cells_per_correlation_length", ["120 um", "960 um"]
     (told,) = fired(name, with_(ROUGH, **ridges, grid__shape=[60, 160], grid__lengths=lengths))
-    assert "surface, 4 um, is 2 cells" in told
+    assert "length, 4 um, is 2 cells" in told
     assert fired(name, with_(ROUGH, **ridges, grid__shape=[120, 160], grid__lengths=lengths)) == []
 
 

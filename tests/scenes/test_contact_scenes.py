@@ -13,7 +13,7 @@ from bem.grid import Grid
 from bem.materials import Body, Layer, Material, contact_modulus
 from bem.notes import has_code
 from bem.notes.checks import DEPTHS_MISS_STRESS, RESIDUAL_STRESS, YIELDS
-from bem.notes.contact import ADHESIVE_ZONE_UNRESOLVED
+from bem.notes.contact import ADHESIVE_ZONE_UNRESOLVED, CONTACT_UNRESOLVED
 from bem.reference_solutions.hertz import cylinder_contact, sphere_contact
 from bem.reference_solutions.westergaard import crossed_full_contact_pressure
 from bem.relaxation import PronySeries
@@ -593,3 +593,19 @@ def test_other_kinds_refuse_a_body_that_relaxes():
     }
     with pytest.raises(InputError, match="relaxes"):
         plan_scene(data)
+
+
+def test_a_contact_of_few_cells_says_that_it_is_not_resolved():
+    """A single cell had a mean pressure above its maximum without a word."""
+    rough = {"kind": "generated", "rms_height": "50 nm", "correlation_length": "4 um"}
+    body = {"material": "steel-52100", "surface": rough}
+    patch = {"kind": "contact", "lower": body, "upper": {"material": "steel-52100"}, "grid": {"shape": 64}}
+    patch["grid"] |= {"lengths": "64 um", "periodic": True}
+    for pressure, expected in (("5 kPa", True), ("50 MPa", False)):
+        resolved, _ = plan_scene(patch | {"contact": {"mean_pressure": pressure}})
+        context = PlainContext(resolved.seed)
+        pressures = KIND.run(resolved, context).pressure
+        cells = int((pressures > 0).sum())
+        assert (cells < 10) == expected
+        said = [n for n in context.notes if has_code([n], CONTACT_UNRESOLVED, reason="few-cells")]
+        assert [note.values["cells"] for note in said] == [cells] * expected

@@ -16,7 +16,8 @@ from bem.kinds.contact.response import solve_response
 from bem.kinds.contact.scene import ContactScene
 from bem.materials import softer_hardness
 from bem.notes import Level, Note, has_code
-from bem.notes.contact import CONTACT_AT_EDGE
+from bem.notes.contact import CONTACT_AT_EDGE, CONTACT_UNRESOLVED
+from bem.notes.note import without
 from bem.numerics.blocks import deviation
 from bem.scenes import build
 from bem.scenes.context import Context, error_bars, release, set_aside, tell
@@ -46,7 +47,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         response = solve_response(scene, grid, undeformed, context)
         solution = response.contact
         tell(context, response.notes(scene, grid))
-    tell(context, _cut_off(scene, grid, solution))
+    tell(context, _on_few_cells(scene, grid, solution.pressure, _cut_off(scene, grid, solution)))
     tell(context, response.notes_apart())
     below: StressSummary | None = None
     if scene.wanted_depths():
@@ -180,6 +181,22 @@ def _cut_off(scene: ContactScene, grid: Grid, solution: ContactSolution) -> tupl
         else note
         for note in notes
     )
+
+
+_FEWEST_CELLS = 10
+"""Cells in contact below which no figure of the contact is resolved."""
+
+
+def _on_few_cells(scene: ContactScene, grid: Grid, pressure: FloatArray, notes: tuple[Note, ...]) -> tuple[Note, ...]:
+    """Return the notes with one on a contact of few cells, in place of that on spots.
+
+    The check of the cells across a smooth contact says so before the run.
+    """
+    cells = int(np.count_nonzero(pressure > 0))
+    smooth = scene.lower.surface.kind == scene.upper.surface.kind == "smooth"
+    if not 0 < cells < _FEWEST_CELLS or (smooth and scene.smooth_contact(grid.lengths) is not None):
+        return notes
+    return (*without(notes, CONTACT_UNRESOLVED), CONTACT_UNRESOLVED(cells=cells, reason="few-cells"))
 
 
 def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Context) -> StressSummary:
