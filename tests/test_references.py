@@ -39,6 +39,8 @@ def test_every_key_that_is_cited_has_an_entry():
         for table in (
             *cited._HEAT.values(),
             *(cited._GENERATED, cited._MOMENTS, cited._LAYERED, cited._DESPIKED, cited._PARAMETERS),
+            *(cited._MOVING_HEAT, cited._FLASH, cited._STRESSES, cited._POINT_FILM, cited._LINE_FILM, cited._WAVES),
+            *(cited._SHARED, *cited._OF_MATERIALS.values()),
             *(cited._SEAMS_CLOSED, cited._UNCOUPLED, cited._FLOW_FACTORS, cited._COUPLING, cited._FILM_DEFECT),
         )
         for key in table
@@ -128,6 +130,36 @@ def test_conditional_methods_are_cited_where_a_scene_uses_them_alone():
     assert "patir1978" in sources("stribeck-mineral-oil", "sharing.flow_factors=surfaces")
 
 
+@pytest.mark.parametrize(
+    ("name", "used", "unused"),
+    [
+        (
+            "running-in-ball",
+            {"love1929", "johnson1985", "kalker1977", "venner2000", "jaeger1942", "blok1937"},
+            "lee1960",
+        ),
+        ("running-in-stribeck", {"love1929", "johnson1985"}, "venner2000"),
+        ("stribeck-mineral-oil", {"love1929", "kalker1977"}, "blok1937"),
+        ("tribofilm-ball", {"love1929", "johnson1985"}, "venner2000"),
+        ("crystal-ball", {"ting1996", "willis1966"}, "lee1960"),
+        ("viscoelastic-ball", {"lee1960", "ting1966"}, "ting1996"),
+        ("tense-gel-ball", {"hajji1978", "long2013"}, "lee1960"),
+    ],
+)
+def test_kernels_stresses_heat_and_materials_are_cited_where_they_are_used(name, used, unused):
+    found = sources(name)
+    assert used <= set(found)
+    assert unused not in found
+    line = "elastohydrodynamic line contact" in found.get("dowson1966", [])
+    assert line is (name in ("running-in-stribeck", "stribeck-mineral-oil"))
+
+
+def test_stresses_below_are_cited_where_a_criterion_asks_for_them():
+    archard = 'wear.criterion={kind="archard",specific_wear_rate=1e-16,distance=0.01}'
+    for settings, cites in (((), True), ((archard,), False), ((archard, "wear.particle_criterion=von_mises"), True)):
+        assert ("stresses below the surface" in sources("running-in-ball", *settings)["love1929"]) is cites
+
+
 def test_constants_of_the_catalogues_are_told_with_their_sources():
     scene = plan_scene("coated-sphere")[0]
     found = cited.catalogue_sources(scene)
@@ -137,6 +169,11 @@ def test_constants_of_the_catalogues_are_told_with_their_sources():
     assert own["material silicon-nitride"].endswith("The scene itself gives youngs_modulus")
     oil = cited.catalogue_sources(plan_scene("hot-film")[0])
     assert "ISO 3448" in oil["oil ISO VG 68"]
+    assert "Stachowiak" in oil["oil ISO VG 68, pressure-viscosity"]
+    assert "Modelica" in oil["oil ISO VG 68, heat capacity"]
+    assert "Mann (1995)" in oil["oil ISO VG 68, shear_stress_limit"]
+    given = cited.catalogue_sources(plan_scene("hot-film", ("oil.pressure_viscosity=20 1/GPa",))[0])
+    assert "oil ISO VG 68, pressure-viscosity" not in given
 
 
 def test_another_parser_reads_the_bibtex():

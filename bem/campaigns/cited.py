@@ -22,6 +22,29 @@ _HEAT = {
         "anderson1965": "coupling of film and temperature",
     },
 }
+_MOVING_HEAT = {"jaeger1942": "moving sources of heat", "carslaw1959": "moving sources of heat"}
+_FLASH = {"blok1937": "partition of heat between the surfaces in contact"}
+_STRESSES = {"love1929": "stresses below the surface", "johnson1985": "stresses below the surface"}
+_POINT_FILM = {
+    "brandt1990": "multilevel integration of the film's deformation",
+    "venner2000": "multigrid of the film",
+    "nijenbanning1994": "start of the film",
+}
+_SHARED = {"johnson1972": "load sharing of film and asperities", "reynolds1886": "Reynolds equation"}
+_LINE_FILM = {"dowson1966": "elastohydrodynamic line contact"}
+_WAVES = {
+    "greenwood1994": "waves of roughness in the film",
+    "hooke2000": "waves of roughness in the film",
+    "morales2011": "waves of roughness in the film",
+}
+_OF_MATERIALS = {
+    "stiffness": {
+        "ting1996": "surface of an anisotropic half-space",
+        "willis1966": "contact of anisotropic bodies",
+    },
+    "relaxation": {"lee1960": "contact of bodies that relax", "ting1966": "contact of bodies that relax"},
+    "surface_tension": {"hajji1978": "surface tension of the half-space", "long2013": "contact with surface tension"},
+}
 _PARAMETERS = {"iso25178": "roughness parameters (Sq, Sdq, Sk and the like)"}
 _UNCOUPLED = {"greenwood1966": "uncoupled asperities"}
 _FLOW_FACTORS = {"patir1978": "flow factors", "patir1979": "shear flow factors", "almqvist2007": "homogenisation"}
@@ -67,7 +90,9 @@ def _all_sources(scene: SceneModel) -> Iterator[tuple[str, str]]:
         yield from _ROUGH_CONTACT.items()
         if all(getattr(getattr(scene, "grid", None), "periodic", None) or (False,)):
             yield from _AREA_THEORIES.items()
-    yield from _HEAT.get(str(getattr(scene, "thermal", "off")), {}).items()
+    yield from _heat_and_film(scene)
+    if _finds_stresses(scene):
+        yield from _STRESSES.items()
     if any(str(model).startswith("uncoupled") for model in _models(scene)):
         yield from _UNCOUPLED.items()
     if getattr(getattr(scene, "sharing", None), "flow_factors", "off") != "off":
@@ -79,6 +104,9 @@ def _all_sources(scene: SceneModel) -> Iterator[tuple[str, str]]:
             yield from _PARAMETERS.items()
         if type(item).__name__ == "FilmDefectScene":
             yield from _FILM_DEFECT.items()
+        if isinstance(item, MaterialScene):
+            for name, sources in _OF_MATERIALS.items():
+                yield from sources.items() if getattr(item, name) is not None else ()
         if isinstance(item, Law):
             family = item.family.replace("_", " ")
             yield from ((key, f"{family} {item.name}") for key in item.cites)
@@ -92,12 +120,46 @@ def _all_sources(scene: SceneModel) -> Iterator[tuple[str, str]]:
             yield from _LAYERED.items()
 
 
+_CONSTANTS = ("pressure-viscosity", "density", "heat capacity", "conductivity")
+"""Constants of an oil beside its viscosity, as plans name them."""
+
+
+def _heat_and_film(scene: SceneModel) -> Iterator[tuple[str, str]]:
+    """Yield the sources of the heat of film and surfaces, and of the film that shares the load with rough contact."""
+    contact, sharing = getattr(scene, "contact", None), getattr(scene, "sharing", None)
+    heat = _HEAT.get(str(getattr(scene, "thermal", "off")), {})
+    yield from heat.items()
+    if heat:
+        yield from _MOVING_HEAT.items()
+    if getattr(getattr(scene, "rubbing", None), "speeds", None) is not None:  # a tribofilm as warm as its spots
+        yield from (_MOVING_HEAT | _FLASH).items()
+    if getattr(scene, "kind", "") == "tribofilm" and getattr(scene, "oil", None) is not None:
+        yield from (_SHARED | _POINT_FILM).items()
+    if sharing is None or contact is None or not hasattr(contact, "point_radii"):
+        return
+    if heat:
+        yield from _FLASH.items()
+    yield from (_LINE_FILM if contact.point_radii is None else _POINT_FILM).items()
+    if getattr(scene, "by_waves", False):
+        yield from _WAVES.items()
+
+
+def _finds_stresses(scene: SceneModel) -> bool:
+    """Return True if a criterion of stress or of fatigue asks for the stresses below the surface."""
+    from bem.wear.criterion import StressCriterion
+
+    wear, particles = getattr(scene, "wear", None), getattr(scene, "particles", None)
+    laws = (getattr(wear, "finds_particles", None), getattr(particles, "criterion", None))
+    return any(isinstance(law, StressCriterion) for law in laws) or getattr(scene, "fatigue", None) is not None
+
+
 def catalogue_sources(scene: SceneModel) -> dict[str, str]:
     """Return the sources of the constants of a scene: materials, oils and surfaces of the catalogues, by name.
 
     They are sentences that name several papers and say what is assumed, not entries of `bem.references`.
     """
     from bem.lubrication.oils.catalogue import find_oil
+    from bem.scenes.checks.overview import oil as oil_rows
 
     found: dict[str, str] = {}
     for item in _inside(scene):
@@ -108,6 +170,12 @@ def catalogue_sources(scene: SceneModel) -> dict[str, str]:
         elif getattr(item, "grade", None) and hasattr(item, "pressure_viscosity"):
             oil = find_oil(item.grade, viscosity_index=item.viscosity_index, base=item.base)
             found[f"oil {item.grade}"] = f"viscosity: {oil.viscosity_source}"
+            for name, _, source in oil_rows(item.build()):
+                if name in _CONSTANTS and not source.startswith("given"):
+                    found[f"oil {item.grade}, {name}"] = source
+            if oil.shear is not None and any(isinstance(one, Law) and one.name == "base_oil" for one in _inside(item)):
+                for name, constant in oil.shear.constants().items():
+                    found[f"oil {item.grade}, {name}"] = constant.source
     return found
 
 

@@ -19,6 +19,7 @@ from bem.plots.tables import (
     ABOUT_THE_RUN,
     accuracy_tables,
     figure_tables,
+    is_counted,
     is_error,
     is_list,
     is_second_name,
@@ -47,7 +48,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
     summary, notes = run.summary, of_summary(run.summary)
     first = [name for name in headline if summary.get(name) is not None]
     rest = [name for name in summary if name not in first and name not in ABOUT_THE_RUN and not is_error(name, summary)]
-    rest = [name for name in rest if not is_second_name(name, summary)]
+    rest = [name for name in rest if not is_second_name(name, summary) and not is_counted(name, summary)]
     scene_text = (run.path / "scene.toml").read_text("utf-8")
     page = template.render(
         summary=summary,

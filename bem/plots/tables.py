@@ -98,6 +98,21 @@ def is_second_name(name: str, among: Mapping[str, Any]) -> bool:
     return f"lower_{name}" in among
 
 
+def is_counted(name: str, among: Mapping[str, Any]) -> bool:
+    """Return True for a figure of whole cells beside the estimate of the same quantity, which alone is shown.
+
+    The count of cells in contact, or of those at the hardness, is an upper bound; `summary.json` has both.
+    """
+    return _COUNTED.get(name) in among
+
+
+_COUNTED = {
+    "counted_contact_area_fraction": "contact_area_fraction",
+    "counted_plastic_area_fraction": "plastic_area_fraction",
+    "max_pressure_of_cells_Pa": "max_pressure_Pa",
+}
+"""Figures of whole cells, and the estimate of the same quantity."""
+
 _SHARES = ("fraction", "share")
 _WITHOUT_SIGN = frozenset(
     (

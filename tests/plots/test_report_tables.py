@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from bem.plots.report import spelled, with_error, write_report
+from bem.plots.report import spelled, summary_rows, with_error, write_report
 from bem.plots.tables import figure_tables, name_and_unit, summary_of_points
 from bem.scenes import get_kind
 from bem.scenes.records import UNITS, figures
@@ -258,3 +258,23 @@ def test_the_hardness_is_named_where_it_is_the_maximum_pressure():
 def test_an_error_below_a_millionth_is_left_out():
     assert with_error("load_N", {"load_N": 2.0, "load_N_error": 1.9e-6})[1] == "2 N"
     assert with_error("load_N", {"load_N": 2.0, "load_N_error": 2.1e-6})[1] == "2 ± 2.1e-06 N"
+
+
+def test_an_area_is_shown_once_and_roughness_before_and_after_in_one_row(tmp_path):
+    """Areas counted by cells stood beside the estimates without a word."""
+    (tmp_path / "scene.toml").write_text('kind = "contact"\n')
+    summary = {
+        **{"scene": "s", "kind": "contact", "status": "converged", "version": "1", "seed": 1, "wall_time_s": 1.0},
+        **{"contact_area_fraction": 0.1, "counted_contact_area_fraction": 0.12, "max_pressure_Pa": 1e9},
+        **{"Sq_initial_nm": [235.5], "Sq_final_nm": [215.0], "reported_mean": "volume"},
+        "particle_equivalent_radius_nm": [300.0],
+    }
+    run = SimpleNamespace(path=tmp_path, scene={}, summary=summary)
+    page = write_report(run, [], ("contact_area_fraction",)).read_text("utf-8")
+    assert "10 %" in page
+    assert "counted" not in page
+    rows = summary_rows(summary, ["Sq_initial_nm", "Sq_final_nm", "particle_equivalent_radius_nm"])
+    assert rows == [
+        ("Sq of the contact region, initial and final", "235.5 nm → 215 nm"),
+        ("particle equivalent radius, mean by volume", "300 nm"),
+    ]

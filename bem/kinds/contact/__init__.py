@@ -18,4 +18,5 @@ CITES = {
     "kalker1977": "contact as a quadratic program",
     "polonsky1999": "conjugate gradients of the contact",
     "love1929": "influence functions and stresses",
+    "johnson1985": "half-space and Hertz contact",
 }

@@ -16,5 +16,8 @@ CITES = {
     "johnson1972": "load sharing of film and asperities",
     "reynolds1886": "Reynolds equation",
     "polonsky1999": "conjugate gradients of the contact",
+    "kalker1977": "contact as a quadratic program",
+    "love1929": "influence functions of the half-space",
+    "johnson1985": "half-space and Hertz contact",
     "akchurin2017": "balance of the oil volume",
 }

@@ -14,4 +14,7 @@ CITES = {
     "akchurin2017": "running-in in mixed lubrication",
     "reynolds1886": "Reynolds equation",
     "polonsky1999": "conjugate gradients of the contact",
+    "kalker1977": "contact as a quadratic program",
+    "love1929": "influence functions of the half-space",
+    "johnson1985": "half-space and Hertz contact",
 }

@@ -17,4 +17,7 @@ CITES = {
     "dangvan1973": "fatigue",
     "reynolds1886": "Reynolds equation",
     "polonsky1999": "conjugate gradients of the contact",
+    "kalker1977": "contact as a quadratic program",
+    "love1929": "influence functions of the half-space",
+    "johnson1985": "half-space and Hertz contact",
 }

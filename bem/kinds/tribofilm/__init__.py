@@ -13,4 +13,7 @@ CITES = {
     "gosvami2015": "growth of tribofilms",
     "akchurin2017": "tribofilms of rough contacts",
     "polonsky1999": "conjugate gradients of the contact",
+    "kalker1977": "contact as a quadratic program",
+    "love1929": "influence functions of the half-space",
+    "johnson1985": "half-space and Hertz contact",
 }

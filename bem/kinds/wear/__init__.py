@@ -15,5 +15,7 @@ ALSO: tuple[str, ...] = (
 CITES = {
     "akchurin2017": "wear particles of yielded regions",
     "polonsky1999": "conjugate gradients of the contact",
-    "love1929": "influence functions and stresses",
+    "kalker1977": "contact as a quadratic program",
+    "love1929": "influence functions of the half-space",
+    "johnson1985": "half-space and Hertz contact",
 }
