@@ -264,7 +264,8 @@ def test_an_area_is_shown_once_and_roughness_before_and_after_in_one_row(tmp_pat
     """Areas counted by cells stood beside the estimates without a word."""
     (tmp_path / "scene.toml").write_text('kind = "contact"\n')
     summary = {
-        **{"scene": "s", "kind": "contact", "status": "converged", "version": "1", "seed": 1, "wall_time_s": 1.0},
+        **{"scene": "s", "kind": "contact", "status": "converged", "where": "", "version": "1", "seed": 1},
+        "wall_time_s": 1.0,
         **{"contact_area_fraction": 0.1, "counted_contact_area_fraction": 0.12, "max_pressure_Pa": 1e9},
         **{"Sq_initial_nm": [235.5], "Sq_final_nm": [215.0], "reported_mean": "volume"},
         "particle_equivalent_radius_nm": [300.0],
