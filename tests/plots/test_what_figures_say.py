@@ -389,3 +389,14 @@ def test_area_over_load_of_a_sweep_has_all_points_and_the_plastic_limit():
             np.testing.assert_allclose(y, 4.0 * x, rtol=1e-12)
         points = next(item for item in figure.axes[0].containers if item.get_label() == "computed")
         np.testing.assert_allclose(points.lines[0].get_xdata(), pressure.ravel())
+
+
+def test_area_over_load_of_small_areas_has_no_empty_half():
+    """Areas of 1e-4 stood below four empty decades up to full contact."""
+    small = {"reduced_pressure": np.full(1, 1e-4), "contact_area_fraction": np.full(1, 2e-4)}
+    figure = Figure()
+    all_figures()["area-over-load"].draw(
+        run_of("contact", "", {name: Variable(("load",), values, "1", name) for name, values in small.items()}), figure
+    )
+    highest = max(float(np.max(line.get_ydata())) for line in figure.axes[0].lines if len(line.get_ydata()))
+    assert highest < figure.axes[0].get_ylim()[1] <= 2.1 * highest

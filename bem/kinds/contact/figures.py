@@ -166,7 +166,8 @@ def _area_over_load(run: Any, figure: Figure) -> None:
     )
     axes.set_xlabel("nominal pressure p / (E* × rms slope h′)")
     axes.set_ylabel("contact area fraction")
-    axes.set_ylim(top=1.5)
+    axes.set_xlim(reach[0], reach[-1])
+    axes.set_ylim(top=min(1.5, 2.0 * max(persson[-1], min(bush[-1], 1.0), float(area[known].max()))))
     axes.legend(loc="upper left")
 
 
