@@ -87,7 +87,8 @@ def heights_of(
 
 
 def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
-    """Gap of the upper body's smooth shape over the plane [m], (nx, ny), new; spheres and cylinders as parabolas."""
+    """Gap of the upper body's smooth shape over the plane [m], (nx, ny), new; spheres and cylinders as parabolas, profiles over
+    the tangent plane of their contact point."""
     x, y = grid.x[:, None], grid.y[None, :]
     if scene.kind == "flat":
         gap = np.zeros(grid.shape)
@@ -95,6 +96,11 @@ def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
         assert scene.amplitude is not None
         assert scene.wavelength is not None
         gap = scene.amplitude * (1 - np.cos(2 * np.pi * x / scene.wavelength)) + 0 * y
+    elif scene.kind == "profiles":
+        from bem.profiles import gap_over_tangent_plane
+
+        placed = scene.placed()
+        gap = gap_over_tangent_plane(placed, placed.contact_points[0], grid)
     else:
         assert scene.radius is not None
         curvature = {"sphere": 1 / scene.radius, "cylinder": 0.0, "ellipsoid": 1 / (scene.radius_y or math.inf)}[

@@ -26,6 +26,7 @@ from bem.scenes.planner import Plan
 from bem.scenes.records import Record
 from bem.scenes.records import headline as headline_of
 from bem.scenes.resolutions import Resolution
+from bem.scenes.tables.profile import ProfileScene
 from bem.scenes.uncertain import deviations
 
 KINDS = Path(__file__).resolve().parents[1] / "kinds"
@@ -141,7 +142,7 @@ class Kind:
 
 
 def with_checksums(table: Any) -> Any:
-    """The table with the checksums of its surface files, at any depth; itself where there are none."""
+    """The table with the checksums of its files of surfaces and profiles, at any depth; itself where there are none."""
     changed: dict[str, Any] = {}
     for name in type(table).model_fields:
         inner = getattr(table, name)
@@ -149,7 +150,7 @@ def with_checksums(table: Any) -> Any:
             whole = with_checksums(inner)
             if whole is not inner:
                 changed[name] = whole
-    if isinstance(table, MeasuredSurface) and table.sha256 is None:
+    if isinstance(table, MeasuredSurface | ProfileScene) and table.path is not None and table.sha256 is None:
         changed["sha256"] = checksum_of(table.path)
     return table.model_copy(update=changed) if changed else table
 

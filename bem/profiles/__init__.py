@@ -1,0 +1,25 @@
+"""Wheel and rail profiles, and where a wheel touches a rail.
+
+Coordinates: x along the rail in the direction of rolling, y to the right, z down; lengths [m], angles [rad].
+
+- `profile`: a profile from its points, smoothed by a spline; profile files.
+- `catalogue`: profiles of published arcs and polynomials.
+- `placement`: a wheel set on a rail: contact points, contact angle, local radii, spin of the contact angle.
+- `gap`: the undeformed gap over the tangent plane of a contact point.
+"""
+
+from bem.profiles.catalogue import PROFILE_NAMES, catalogued_profile
+from bem.profiles.gap import equivalent_radii, gap_over_tangent_plane
+from bem.profiles.placement import ContactPoint, WheelOnRail
+from bem.profiles.profile import Profile, read_profile
+
+__all__ = [
+    "PROFILE_NAMES",
+    "ContactPoint",
+    "Profile",
+    "WheelOnRail",
+    "catalogued_profile",
+    "equivalent_radii",
+    "gap_over_tangent_plane",
+    "read_profile",
+]
