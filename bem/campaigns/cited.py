@@ -65,6 +65,11 @@ _AREA_THEORIES = {
     "persson2001": "contact area beside the computed one",
     "bush1975": "contact area beside the computed one",
 }
+_PROFILES = {
+    "wang1984": "contact points of wheel and rail",
+    "vollebregt2022": "wheel and rail on a tangent plane",
+    "kalker1990": "spin of the contact angle",
+}
 _LAYERED = {"burmister1945": "layered bodies", "osullivan1988": "stresses of layered bodies"}
 
 
@@ -97,6 +102,8 @@ def _all_sources(scene: SceneModel) -> Iterator[tuple[str, str]]:
         yield from _UNCOUPLED.items()
     if getattr(getattr(scene, "sharing", None), "flow_factors", "off") != "off":
         yield from _FLOW_FACTORS.items()
+    if getattr(getattr(scene, "shape", None), "kind", "") == "profiles":
+        yield from _PROFILES.items()
     if _friction_moves_the_gap(scene):
         yield from _COUPLING.items()
     for item in _inside(scene):

@@ -32,6 +32,54 @@ CONTACT_AT_EDGE = define(
         ),
     },
 )
+SECOND_CONTACT = define(
+    "second-contact",
+    INFO,
+    "Wheel and rail come close at a second place.",
+    reasons={
+        "left-out": Reason(
+            "It lies {beside:si m} beside the first one at a contact angle of {angle:.0f} deg. Its gap of {gap:si m} is"
+            " less than the {closing:si m} by which the bodies come closer there: it carries a part of the load.",
+            "Take a grid that covers both, or a lateral position with one contact.",
+            OUTSIDE_MODEL,
+            headline="Wheel and rail touch at a second place, which the grid leaves out.",
+        ),
+        "inclined": Reason(
+            "It lies {beside:si m} beside the first one at a contact angle of {angle:.0f} deg, and its gap before"
+            " loading is {gap:si m}: its forces have another direction.",
+            "Take the part there as an estimate.",
+            CAUTION,
+            headline="A second contact place is solved on the tangent plane of the first.",
+        ),
+        "inside": Reason(
+            "It lies on the grid, {beside:si m} beside the first one, and is part of the solution; its gap before"
+            " loading is {gap:si m}, its contact angle {angle:.0f} deg."
+        ),
+        "open": Reason(
+            "It lies {beside:si m} beside the first one at a contact angle of {angle:.0f} deg and has a gap of"
+            " {gap:si m}; the bodies come closer by {closing:si m} there, so that it stays open."
+        ),
+    },
+)
+PROFILE_ENDS = define(
+    "profile-ends",
+    OUTSIDE_MODEL,
+    "The contact reaches the end of a profile.",
+    "The bodies are solved as if they went on, without touching there.",
+    "Give a profile that goes on, or another lateral position.",
+)
+CONTACT_BENT = define(
+    "contact-bent",
+    CAUTION,
+    "The contact bends with the profiles.",
+    reasons={
+        "bent": Reason(
+            "The normals turn by {angle:.0f} deg across the contact, and it is solved on one plane: pressures in its"
+            " outer parts have a wrong direction.",
+            "Take the result as an estimate.",
+        ),
+    },
+)
 FRICTION_NOT_UNIQUE = define(
     "friction-not-unique",
     CAUTION,

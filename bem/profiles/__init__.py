@@ -8,18 +8,16 @@ Coordinates: x along the rail in the direction of rolling, y to the right, z dow
 - `gap`: the undeformed gap over the tangent plane of a contact point.
 """
 
-from bem.profiles.catalogue import PROFILE_NAMES, catalogued_profile
-from bem.profiles.gap import equivalent_radii, gap_over_tangent_plane
+from bem.profiles.catalogue import catalogued_profile
+from bem.profiles.gap import gap_over_tangent_plane
 from bem.profiles.placement import ContactPoint, WheelOnRail
 from bem.profiles.profile import Profile, read_profile
 
 __all__ = [
-    "PROFILE_NAMES",
     "ContactPoint",
     "Profile",
     "WheelOnRail",
     "catalogued_profile",
-    "equivalent_radii",
     "gap_over_tangent_plane",
     "read_profile",
 ]

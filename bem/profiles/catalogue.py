@@ -47,6 +47,12 @@ def _arc(centre: tuple[float, float], radius: float, start: float, end: float, s
     return centre[0] + radius * np.sin(angle), centre[1] + side * radius * np.cos(angle)
 
 
+def _polynomial(y: FloatArray, coefficients: tuple[float, ...]) -> FloatArray:
+    """Return the polynomial of these coefficients, that of y^0 first."""
+    values: FloatArray = np.polynomial.polynomial.polyval(y, np.array(coefficients))
+    return values
+
+
 def _joined(pieces: list[Points], end: tuple[float, float]) -> Points:
     y, z = (np.concatenate([*parts, [last]]) for parts, last in zip(zip(*pieces, strict=True), end, strict=True))
     return y, z
@@ -123,8 +129,8 @@ def _s1002() -> Points:
         *_flange(9.519259302, 16.0, 8.834924130, -39.764473993),
         _function(lambda y: -93.576667419 - 2.747477419 * y, -39.764473993, -38.426669071),
         _arc((-26.210665, 16.446), 13.0, -38.426669071, -35.0, -1),
-        _function(lambda y: np.polynomial.polynomial.polyval(y, root), -35.0, -26.0),
-        _function(lambda y: np.polynomial.polynomial.polyval(y, tread), -26.0, 32.15796),
+        _function(lambda y: _polynomial(y, root), -35.0, -26.0),
+        _function(lambda y: _polynomial(y, tread), -26.0, 32.15796),
         _function(lambda y: 1.364323640 - 0.066666667 * y, 32.15796, 60.0),
     ]
     return _joined(pieces, (60.0, 1.364323640 - 0.066666667 * 60.0))

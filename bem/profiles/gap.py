@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bem.grid import FloatArray, Grid
 from bem.profiles.placement import ContactPoint, WheelOnRail
@@ -37,6 +38,12 @@ def gap_over_tangent_plane(placed: WheelOnRail, point: ContactPoint, grid: Grid)
     if not known.all():
         gap[~known] = (float(gap[known].max()) if known.any() else 0.0) + BEYOND
     return gap
+
+
+def covered(placed: WheelOnRail, point: ContactPoint, y: FloatArray) -> NDArray[np.bool_]:
+    """Return True where both profiles go on at distances y [m] along the tangent plane of a contact point."""
+    wheel = _on_section(placed.wheel.turned(placed.roll), point.wheel_parameter, point.tangent, y)
+    return np.isfinite(wheel) & np.isfinite(_on_section(placed.rail, point.rail_parameter, point.tangent, y))
 
 
 def equivalent_radii(placed: WheelOnRail) -> tuple[float, float]:

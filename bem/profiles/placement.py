@@ -8,7 +8,7 @@ the turn angle t about its axis, roll and yaw this is
     a sin t + b cos t = c,   a = y' cos(yaw),   b = y' sin(yaw) sin(roll),   c = -z' sin(yaw) cos(roll),
 
 and for yaw = 0 the section through the axis, t = 0. The vertical gap between locus and rail is least at the contact
-points: the first one touches, others are as far open as their gap is larger. (de Pater and Wang are quoted from memory.)
+points: the first one touches, others are as far open as their gap is larger. (Both papers are quoted from memory.)
 
 Verified in tests/profiles/test_placement.py: circles in closed form, a brute-force search over the whole surface of a
 yawed wheel, and the rolling radius differences of EN 15302.
@@ -114,7 +114,7 @@ class WheelOnRail:
             raise InputError("wheel on rail: yaw with a rail_radius; allowed: yaw on a rail, or a roller without yaw")
 
     def wheel_surface(self, s: FloatArray, turn: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return x, y, z of points of the wheel, by arc length [m] and turn [rad], in the rail's frame but for height."""
+        """Return x, y, z [m] of points of the wheel by arc length and turn, in the rail's frame but for z."""
         y, z = self.wheel.at(s)
         radius = self.rolling_radius + z
         return self.rotated(radius * np.sin(turn), y, radius * np.cos(turn) - self.rolling_radius, self.lateral)
@@ -181,7 +181,9 @@ class WheelOnRail:
         s, gap, slope = self._locus
         minima = []
         for i in np.flatnonzero((slope[:-1] < 0) & (slope[1:] >= 0)):
-            minima.append(brentq(lambda at: float(self._vertical_gap(np.array([at]))[1][0]), s[i], s[i + 1], xtol=1e-15))
+            minima.append(
+                brentq(lambda at: float(self._vertical_gap(np.array([at]))[1][0]), s[i], s[i + 1], xtol=1e-15)
+            )
         if not minima:
             raise InputError(
                 "wheel on rail: the wheel touches the rail only at the end of a profile, or not at all; allowed: a "

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import BSpline, make_interp_spline, make_smoothing_spline
 
 from bem.arguments import read_small
@@ -134,7 +135,7 @@ class Profile:
         return self.lateral.derivative(2), self.depth.derivative(2)
 
 
-def _longest_rise(rises: FloatArray) -> tuple[int, int]:
+def _longest_rise(rises: NDArray[np.bool_]) -> tuple[int, int]:
     """Return the first and last point of the longest run of rising steps."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], rises.astype(np.int8), [0]])))
     starts, ends = edges[::2], edges[1::2]

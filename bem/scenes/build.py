@@ -87,8 +87,8 @@ def heights_of(
 
 
 def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
-    """Gap of the upper body's smooth shape over the plane [m], (nx, ny), new; spheres and cylinders as parabolas, profiles over
-    the tangent plane of their contact point."""
+    """Gap of the upper body's smooth shape over the plane [m], (nx, ny), new; spheres and cylinders as parabolas,
+    profiles over the tangent plane of their contact point."""
     x, y = grid.x[:, None], grid.y[None, :]
     if scene.kind == "flat":
         gap = np.zeros(grid.shape)

@@ -23,10 +23,10 @@ from bem.scenes.common import MeasuredSurface, SceneModel, Table
 from bem.scenes.context import Context
 from bem.scenes.paths import checksum_of
 from bem.scenes.planner import Plan
+from bem.scenes.profile import ProfileScene
 from bem.scenes.records import Record
 from bem.scenes.records import headline as headline_of
 from bem.scenes.resolutions import Resolution
-from bem.scenes.tables.profile import ProfileScene
 from bem.scenes.uncertain import deviations
 
 KINDS = Path(__file__).resolve().parents[1] / "kinds"

@@ -34,7 +34,7 @@ UNITS: dict[str, tuple[str, float, float, float]] = {
     "Pa": ("Pa", 1, 1, 0), "K": ("K", 1, 1, 0), "C": ("K", 1, 1, -273.15), "s": ("s", 1, 1, 0), "h": ("s", 1, 3600, 0),
     "m_s": ("m/s", 1, 1, 0), "nm_s": ("m/s", 1e9, 1, 0), "percent": ("1", 100, 1, 0), "J": ("J", 1, 1, 0),
     "N_m": ("N/m", 1, 1, 0), "per_m": ("1/m", 1, 1, 0), "Nm": ("N*m", 1, 1, 0),
-    "rad": ("rad", 1, 1, 0),
+    "rad": ("rad", 1, 1, 0), "deg": ("rad", 180, math.pi, 0),
     "W": ("W", 1, 1, 0), "mm3_Nm": ("m^2/N", 1e9, 1, 0), "per_mm3": ("1/m^3", 1, 1e9, 0),
 }  # fmt: skip
 """Units at the end of figures' names: the SI unit, and factor, divisor and offset from it."""

@@ -14,11 +14,12 @@ import numpy as np
 from bem.grid import FloatArray, Grid
 from bem.notes.accuracy import NoBar
 from bem.notes.contact import FRICTION_ON_PRESSURE
-from bem.scenes import build, plans
+from bem.scenes import build, plans, wheel_rail
 from bem.scenes.context import Context, tell
 from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, grid_map
 from bem.scenes.tables.pressing import StressedScene
+from bem.scenes.wheel_rail import WheelRailRecord
 from bem.tangential.friction_laws import SlipFriction
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ class Site:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class StickRecord(GridRecord):
+class StickRecord(GridRecord, WheelRailRecord):
     """A contact that sticks and slips, and the stresses under it where they are asked for; of several steps, the last
     one's."""
 
@@ -123,6 +124,7 @@ def pressed_together(scene: StressedScene, context: Context) -> Site:
         asked = scene.contact.prescribed(grid.area) | scene.contact.accuracy()
         contact = solve_contact(gap, build.operator_of(scene, grid, 0.0), **asked)
     tell(context, contact.notes)
+    wheel_rail.tell_profiles(scene, grid, contact, context)
     return Site(grid, gap, contact, bool(lower.any() or upper.any()))
 
 

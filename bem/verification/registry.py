@@ -29,7 +29,17 @@ FAMILIES = {
 REPORTED = ("plasticity-sphere",)
 """Problems that validate a model instead of verifying a kernel: in the report, not gated."""
 
-OWN = ("closed_forms", "point_film", "waves", "sticking", "viscoelastic", "crystals", "surface_tension", "refinement")
+OWN = (
+    "closed_forms",
+    "point_film",
+    "waves",
+    "sticking",
+    "viscoelastic",
+    "crystals",
+    "surface_tension",
+    "wheel_rail",
+    "refinement",
+)
 """Modules with a function `gates()` that need no stored case."""
 
 

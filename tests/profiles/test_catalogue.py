@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from bem.errors import InputError
-from bem.profiles import PROFILE_NAMES, catalogued_profile
+from bem.profiles import catalogued_profile
+from bem.profiles.catalogue import PROFILE_NAMES
 
 
 def test_the_inclined_60e1_is_nearly_rail_a_of_en15302():
@@ -43,7 +44,7 @@ def test_arcs_have_their_radii(name, place, radius):
 
 @pytest.mark.parametrize("name", PROFILE_NAMES)
 def test_pieces_meet_without_a_kink(name):
-    """The direction turns by no more than an arc of 8 mm turns it over the distance of points; wheel A has a chamfer."""
+    """The direction turns by no more than an arc of 8 mm turns it between points; wheel A has a chamfer."""
     profile = catalogued_profile(name)
     y, z = profile.at(profile.knots)
     if name == "en15302-wheel-a":

@@ -7,7 +7,8 @@ import pytest
 from test_placement import circle
 
 from bem.grid import Grid
-from bem.profiles import Profile, WheelOnRail, catalogued_profile, equivalent_radii, gap_over_tangent_plane
+from bem.profiles import Profile, WheelOnRail, catalogued_profile, gap_over_tangent_plane
+from bem.profiles.gap import equivalent_radii
 
 
 def torus_height(x, y, lateral, radius):
@@ -51,7 +52,9 @@ def test_inclined_planes_see_the_distance_of_the_bodies(lateral):
     assert (gap > -1e-12).all()
     along, up = np.array(point.tangent), np.array(point.normal)
     s = placed.wheel.samples
-    start = np.array([one[0] for one in placed.wheel_surface(np.array([point.wheel_parameter]), np.array([point.turn]))])
+    start = np.array(
+        [one[0] for one in placed.wheel_surface(np.array([point.wheel_parameter]), np.array([point.turn]))]
+    )
     wheel = np.array(placed.wheel_surface(s, np.zeros_like(s)))[1:] - start[1:, None]
     rail = np.array(placed.rail.at(placed.rail.samples)) - np.array([[point.y], [point.z]])
     heights = []

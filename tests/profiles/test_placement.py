@@ -1,5 +1,6 @@
 """Contact points: circles in closed form, the whole surface of a yawed wheel, EN 15302, refusals."""
 
+import itertools
 import math
 
 import numpy as np
@@ -7,14 +8,7 @@ import pytest
 
 from bem.errors import InputError
 from bem.profiles import Profile, WheelOnRail, catalogued_profile
-
-ROLLING_RADIUS_DIFFERENCES = {
-    0.5: 0.116, 1.0: 0.259, 1.5: 0.442, 2.0: 0.667, 2.5: 0.934, 3.5: 1.534, 4.0: 1.913, 4.5: 2.379, 5.0: 2.936,
-    5.5: 3.584, 6.0: 4.327, 6.4: 5.688, 6.6: 7.590, 6.8: 10.940,
-}  # fmt: skip
-"""Lateral displacement -> difference of the rolling radii [mm] of wheels A on rails A: EN 15302:2021, appendix J.2, as
-the open-source program EN15302 quotes it. Its value at 1.7 mm repeats that at 1.8 mm, and those at 3.0 and 6.2 mm, where
-arcs meet, differ from ours by 6 and 10 um."""
+from bem.verification.wheel_rail import ROLLING_RADIUS_DIFFERENCES
 
 
 def circle(radius, centre=(0.0, 0.0), half_angle=1.2, side=-1, points=801):
@@ -82,7 +76,7 @@ def test_further_points_are_told_by_their_gap():
     points = WheelOnRail(wheel, rail, 0.46, lateral=0.001).contact_points
     assert len(points) >= 2
     assert points[0].gap == 0
-    assert all(one.gap <= two.gap for one, two in zip(points, points[1:], strict=False))
+    assert all(one.gap <= two.gap for one, two in itertools.pairwise(points))
 
 
 @pytest.mark.parametrize(

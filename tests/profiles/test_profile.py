@@ -1,5 +1,6 @@
 """Profiles: splines through points of an arc, smoothing of a wave, inversion, files and their refusals."""
 
+import itertools
 import math
 
 import numpy as np
@@ -23,7 +24,7 @@ def test_the_curvature_of_an_arc_is_of_second_order_in_the_distance_of_points():
         s = np.linspace(0.3, 0.7, 37) * profile.knots[-1]
         errors.append(np.abs(profile.curvature(s) * RADIUS - 1).max())
     assert errors[-1] < 2e-5
-    assert all(3.5 < one / two < 4.6 for one, two in zip(errors, errors[1:], strict=False))
+    assert all(3.5 < one / two < 4.6 for one, two in itertools.pairwise(errors))
 
 
 @pytest.mark.parametrize(("over", "kept"), [(0.5, 1 / 17), (1.0, 0.5), (2.0, 16 / 17)])

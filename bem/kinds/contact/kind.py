@@ -27,6 +27,7 @@ KIND = Kind(
     figures=(
         "pressure-map",
         "contact-map",
+        "wheel-rail",
         "contact-section",
         "pressure-histogram",
         "von-mises-section",

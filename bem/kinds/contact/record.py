@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from bem.grid import FloatArray
 from bem.materials import Body
 from bem.scenes.records import Figure, GridRecord, Series, grid_map
+from bem.scenes.wheel_rail import WheelRailRecord
 
 if TYPE_CHECKING:
     from bem.kinds.contact.scene import ContactScene
@@ -28,7 +29,7 @@ def layer_names(body: Body) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ContactRecord(GridRecord):
+class ContactRecord(GridRecord, WheelRailRecord):
     """A solved contact, and the stresses below it where they are asked for."""
 
     load: Annotated[float, Figure("N", "load", headline=True)]

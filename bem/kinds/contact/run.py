@@ -19,7 +19,7 @@ from bem.notes import Level, Note, has_code
 from bem.notes.contact import CONTACT_AT_EDGE, CONTACT_UNRESOLVED
 from bem.notes.note import without
 from bem.numerics.blocks import deviation
-from bem.scenes import build
+from bem.scenes import build, wheel_rail
 from bem.scenes.context import Context, error_bars, release, set_aside, tell
 from bem.scenes.cut_off import is_cut_off
 
@@ -49,6 +49,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         tell(context, response.notes(scene, grid))
     tell(context, _on_few_cells(scene, grid, solution.pressure, _cut_off(scene, grid, solution)))
     tell(context, response.notes_apart())
+    wheel_rail.tell_profiles(scene, grid, solution, context)
     below: StressSummary | None = None
     if scene.wanted_depths():
         with context.timer("stresses"):
@@ -76,6 +77,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         **_stress_fields(below),
         **_coating_fields(scene, grid, response.traction, below),
         **response.arrays(scene),
+        **wheel_rail.fields(scene, grid, solution),
         residual=solution.residual,
         iterations=solution.iterations,
         convolutions=solution.convolutions,

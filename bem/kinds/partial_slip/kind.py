@@ -22,6 +22,7 @@ KIND = Kind(
     contacts=contacts,
     figures=(
         "contact-stiffness",
+        "wheel-rail",
         "slip-map",
         "traction-section",
         "slip-loop",

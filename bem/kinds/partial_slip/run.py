@@ -13,7 +13,7 @@ from bem.kinds.partial_slip.record import PartialSlipRecord
 from bem.kinds.partial_slip.scene import PartialSlipScene
 from bem.kinds.partial_slip.solve import stiffness
 from bem.notes.contact import PRESSING_PATH
-from bem.scenes import sticking
+from bem.scenes import sticking, wheel_rail
 from bem.scenes.context import Context, error_bars
 from bem.scenes.packing import keep, kept
 from bem.scenes.sticking import Site
@@ -64,6 +64,7 @@ def _record(
         x=site.grid.x,
         y=site.grid.y,
         **sticking.stuck(site.grid, contact, last, scene.push.friction),
+        **wheel_rail.fields(scene, site.grid, contact),
         **figures,
         counted_stick_fraction=float(path.column("counted_stick")[-1]),
         rotation=last.rotation if turns else None,

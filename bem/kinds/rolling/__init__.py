@@ -8,7 +8,6 @@ PLACE = 4
 ALSO: tuple[str, ...] = (
     "creep",
     "creepage",
-    "wheel-rail",
     "rolling-contact",
 )
 CITES = {

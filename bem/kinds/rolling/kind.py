@@ -23,6 +23,7 @@ KIND = Kind(
     figures=(
         "creep-curve",
         "rolling-history",
+        "wheel-rail",
         "slip-map",
         "traction-section",
         "pressure-map",

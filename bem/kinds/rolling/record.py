@@ -23,6 +23,9 @@ class RollingRecord(StickRecord):
     traction_coefficient: Annotated[float, Figure("", "size of the force over load", headline=True)]
     creepage: Annotated[float, Figure("", "creepage along x", headline=True)]
     creepage_across: Annotated[float, Figure("", "creepage along y")]
+    spin: Annotated[
+        float | None, Figure("per_m", "spin, with that of the contact angle", optional=True, unjudged=True)
+    ] = None
     stick_fraction: Annotated[float, Figure("", "share of the contact that sticks", headline=True)]
     friction_work: Annotated[float, Figure("N", "energy of friction over the distance rolled, a drag", headline=True)]
     resolved_work: Annotated[float, Figure("", "share of it that the map of cells shows", unjudged=True)]

@@ -11,7 +11,7 @@ from bem.kinds.rolling.errors import bars_of
 from bem.kinds.rolling.record import RollingRecord
 from bem.kinds.rolling.scene import RollingContactScene
 from bem.kinds.rolling.solve import history_curves, rolled_figures, solve_rolling_contact, solve_rolling_history
-from bem.scenes import sticking
+from bem.scenes import sticking, wheel_rail
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.sticking import Site
 
@@ -57,8 +57,10 @@ def _record(
         x=grid.x,
         y=grid.y,
         **sticking.stuck(grid, contact, found, scene.roll.friction),
+        **wheel_rail.fields(scene, grid, contact),
         **extra,
         resolved_work=float(energy.sum()) * grid.cell_area / work if work > 0 else 1.0,
+        spin=scene.roll.spin if scene.shape.kind == "profiles" else None,
         slip_residual=found.residual,
         convolutions=found.convolutions,
         slip=np.hypot(*slid),

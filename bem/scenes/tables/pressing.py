@@ -159,6 +159,12 @@ class PressedScene(SceneModel):
             )
         return self
 
+    @model_validator(mode="after")
+    def _profiles_on_a_free_grid(self) -> Self:
+        if self.shape.kind == "profiles" and any(self.grid.periodic):
+            raise problem("grid.periodic with profiles of a wheel and a rail", "a free grid")
+        return self
+
     def resolved(self) -> Self:
         """With the grid filled in where measured surfaces decide it, the load where a Hertz pressure is given, and the
         softer surface's hardness where capped."""

@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 from bem.errors import InputError
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.keys import key
-from bem.scenes.tables.profile import ProfileScene
+from bem.scenes.profile import ProfileScene
 from bem.scenes.units import Angle, Length
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ class ShapeScene(Table):
         if self.kind in ("flat", "sinusoid"):
             return math.inf, math.inf
         if self.kind == "profiles":
-            from bem.profiles import equivalent_radii
+            from bem.profiles.gap import equivalent_radii
 
             return equivalent_radii(self.placed())
         assert self.radius is not None

@@ -177,6 +177,13 @@ class RollScene(Table):
     spin: InverseLength = key(
         "Spin creepage: relative angular velocity about the normal over the rolling velocity.", "basic", default=0.0
     )
+    contact_angle_spin: bool | None = key(
+        "Add the spin of the contact angle of profiles, -sin(angle) / rolling radius, to spin.",
+        "advanced",
+        default=None,
+        reason='true for shape.kind = "profiles"',
+        strict=True,
+    )
     share: Annotated[Ratio, Field(gt=-1, lt=1)] | None = key(
         "Longitudinal force over the largest one, friction coefficient x load; instead of a creepage.",
         "advanced",
@@ -275,6 +282,24 @@ class RolledScene(StickingScene):
         "Transient rolling from rest, in place of the steady state.", "advanced", default=None, reason="steady rolling"
     )
     outputs: StickOutputs = key("Results besides pressure, traction and slip.", "basic", default=StickOutputs())
+
+    @model_validator(mode="after")
+    def _spin_of_profiles(self) -> Self:
+        if self.roll.contact_angle_spin is not None and self.shape.kind != "profiles":
+            raise problem(
+                f"roll.contact_angle_spin under a shape of kind {self.shape.kind}", 'it with shape.kind = "profiles"'
+            )
+        return self
+
+    def resolved(self) -> Self:
+        """And with the spin of the contact angle added to the spin, of profiles."""
+        scene = super().resolved()
+        if scene.shape.kind != "profiles" or scene.roll.contact_angle_spin is False:
+            return scene
+        spin = scene.roll.spin + scene.shape.placed().contact_points[0].spin
+        return scene.model_copy(
+            update={"roll": scene.roll.model_copy(update={"spin": spin, "contact_angle_spin": False})}
+        )
 
     @model_validator(mode="after")
     def _history_alone(self) -> RolledScene:

@@ -234,6 +234,12 @@ class RubbedScene(SceneModel):
         return self
 
     @model_validator(mode="after")
+    def _no_profiles(self) -> Self:
+        if self.shape.kind == "profiles":
+            raise problem("profiles of a wheel and a rail", "another shape, or kind contact, partial-slip or rolling")
+        return self
+
+    @model_validator(mode="after")
     def _oil_under_a_ball(self) -> Self:
         if self.oil is None:
             return self

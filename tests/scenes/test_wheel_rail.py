@@ -1,0 +1,203 @@
+"""Profiles in scenes: files and names, Hertz, spin of the contact angle, notes on second contacts, refusals."""
+
+import hashlib
+import math
+
+import numpy as np
+import pytest
+
+from bem import InputError, load_scene
+from bem.notes.contact import CONTACT_BENT, PROFILE_ENDS, SECOND_CONTACT
+from bem.reference_solutions.hertz import ellipse_contact
+from bem.scenes import PlainContext, get_kind
+from bem.scenes.kind import with_checksums
+
+RAIL, WHEEL, ROLLING = 0.08, 0.3, 0.46
+
+
+def circle_file(path, radius, side, vertical=1):
+    angle = np.linspace(-0.9, 0.9, 1201)
+    y, z = 1e3 * radius * np.sin(angle), vertical * side * 1e3 * radius * (np.cos(angle) - 1)
+    path.write_text("# y z, mm\n" + "".join(f"{a:.9f} {b:.9f}\n" for a, b in zip(y, z, strict=True)))
+    return str(path)
+
+
+@pytest.fixture
+def circles(tmp_path):
+    """A shape of two circular profiles that touch at 20 degrees, the wheel's file counted upwards."""
+    return {
+        "kind": "profiles",
+        "wheel": {"path": circle_file(tmp_path / "wheel.txt", WHEEL, 1, vertical=-1), "vertical": "up"},
+        "rail": {"path": circle_file(tmp_path / "rail.txt", RAIL, -1)},
+        "rolling_radius": ROLLING,
+        "lateral": (RAIL + WHEEL) * math.sin(math.radians(20)),
+    }
+
+
+def scene(shape, kind="contact", **tables):
+    return {
+        "kind": kind,
+        "grid": {"shape": 48, "lengths": ["5.6 mm", "2.2 mm"]},
+        "lower": {"material": "steel-52100"},
+        "upper": {"material": "steel-52100"},
+        "shape": shape,
+        "contact": {"load": "1 kN"},
+    } | tables
+
+
+def run(table):
+    kind = get_kind(table["kind"])
+    resolved = kind.resolve(load_scene(table))
+    assert kind.plan(resolved).memory > 0
+    context = PlainContext(resolved)
+    return kind.run(resolved, context), context, resolved
+
+
+STANDARD = {
+    "kind": "profiles",
+    "wheel": "s1002",
+    "rail": {"catalogue": "60e1", "inclination": "-1.432 deg"},
+    "rolling_radius": "460 mm",
+}
+
+
+def codes(context):
+    return {note.code for note in context.notes}
+
+
+def test_inclined_circles_are_hertz_contact_within_the_error_bars(circles):
+    found, context, resolved = run(scene(circles))
+    assert not context.notes
+    angle = math.radians(20)
+    radius = ROLLING - WHEEL * (1 - math.cos(angle))
+    material = resolved.lower.build().material
+    hertz = ellipse_contact(
+        radii=(radius / math.cos(angle), 1 / (1 / RAIL + 1 / WHEEL)),
+        contact_modulus=material.plane_strain_modulus / 2,
+        load=1e3,
+    )
+    for name, value in {
+        "approach": hertz.approach,
+        "max_pressure": hertz.maximum_pressure,
+        "contact_area": hertz.contact_area,
+    }.items():
+        bar = found.errors[name]
+        assert abs(getattr(found, name) - value) <= bar + 1e-4 * value, name
+        assert bar < 0.02 * value
+    assert found.contact_angle == pytest.approx(angle, rel=1e-6)
+    assert found.contact_rolling_radius == pytest.approx(radius, rel=1e-8)
+    assert found.contact_length == pytest.approx(2 * hertz.semi_axes[0], abs=2 * 5.6e-3 / 48)
+    assert found.contact_width == pytest.approx(2 * hertz.semi_axes[1], abs=2 * 2.2e-3 / 48)
+    assert found.second_contact_gap is None
+
+
+def test_runs_keep_the_checksums_of_both_files(circles, tmp_path):
+    kept = with_checksums(load_scene(scene(circles)))
+    for name in ("wheel", "rail"):
+        file = tmp_path / f"{name}.txt"
+        assert getattr(kept.shape, name).sha256 == hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def test_a_file_that_changes_after_a_run_is_refused(circles, tmp_path):
+    changed = scene(circles | {"rail": circles["rail"] | {"sha256": "0" * 64}})
+    with pytest.raises(InputError, match="has changed since"):
+        load_scene(changed)
+
+
+def test_spin_of_the_contact_angle_is_added_once_unless_declined(circles):
+    point = load_scene(scene(circles)).shape.placed().contact_points[0]
+    rolling = scene(circles, "rolling", roll={"friction": 0.3, "spin": "0.1 1/m"}, outputs={"errors": False})
+    with_spin, _, resolved = run(rolling)
+    assert point.spin == pytest.approx(-math.sin(math.radians(20)) / point.rolling_radius, rel=1e-6)
+    assert with_spin.spin == pytest.approx(0.1 + point.spin, rel=1e-9)
+    assert get_kind("rolling").resolve(resolved).roll.spin == resolved.roll.spin
+    declined = rolling | {"roll": {"friction": 0.3, "spin": "0.1 1/m", "contact_angle_spin": False}}
+    without, _, _ = run(declined)
+    assert without.spin == 0.1
+    # spin turns about the normal: a lateral force on both bodies, with the sign of Kalker's C23
+    assert abs(with_spin.force_across) > 5 * abs(without.force_across) > 0
+    assert with_spin.force_across * without.force_across < 0
+
+
+def test_a_longitudinal_creepage_of_the_rolling_radius_is_the_spin_beside_the_contact():
+    """A wheel's surface at a larger radius passes faster: the creepage over y is -spin y, by radii of the profile."""
+    placed = load_scene(scene(STANDARD | {"lateral": "1 mm"})).shape.placed()
+    point = placed.contact_points[0]
+    step = 1e-5
+    radii = [
+        placed.rolling_radius + float(placed.wheel.at(np.array([point.wheel_parameter + d]))[1][0])
+        for d in (-step, step)
+    ]
+    # the lower body's velocity over that of rolling: (r(y) - r) / r
+    slope = (radii[1] - radii[0]) / (2 * step) / point.rolling_radius
+    assert -point.spin == pytest.approx(slope, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("lateral", "lengths", "reason"),
+    [
+        ("2 mm", ["22 mm", "40 mm"], "inside"),
+        ("2 mm", ["22 mm", "14 mm"], "left-out"),
+        ("1.5 mm", ["20 mm", "16 mm"], "open"),
+    ],
+)
+def test_a_second_contact_is_told(lateral, lengths, reason):
+    load = "10 kN" if reason == "open" else "100 kN"
+    table = scene(
+        STANDARD | {"lateral": lateral},
+        grid={"shape": [24, 60], "lengths": lengths},
+        contact={"load": load},
+        outputs={"errors": False},
+    )
+    record, context, _ = run(table)
+    (note,) = [note for note in context.notes if note.code == SECOND_CONTACT.code]
+    assert note.values["reason"] == reason
+    assert record.second_contact_gap == pytest.approx(note.values["gap"])
+    assert len(record.contact_point_y) == 2
+
+
+def test_a_bent_contact_and_the_end_of_a_profile_are_told(tmp_path):
+    _, bent, _ = run(
+        scene(
+            STANDARD | {"lateral": "3.2 mm"},
+            grid={"shape": [24, 48], "lengths": ["20 mm", "20 mm"]},
+            contact={"load": "60 kN"},
+            outputs={"errors": False},
+        )
+    )
+    assert CONTACT_BENT.code in codes(bent)
+    y = np.linspace(-3, 3, 61)
+    (tmp_path / "short.txt").write_text("".join(f"{a} {a * a / 600}\n" for a in y))
+    _, ended, _ = run(
+        scene(
+            {"kind": "profiles", "wheel": {"path": circle_file(tmp_path / "w.txt", WHEEL, 1)},
+             "rail": {"path": str(tmp_path / "short.txt")}, "rolling_radius": "460 mm"},
+            grid={"shape": [24, 48], "lengths": ["20 mm", "10 mm"]},
+            contact={"load": "60 kN"},
+            outputs={"errors": False},
+        )
+    )  # fmt: skip
+    assert PROFILE_ENDS.code in codes(ended)
+
+
+@pytest.mark.parametrize(
+    ("shape", "tables", "message"),
+    [
+        ({"lateral": "300 mm"}, {}, "end of a profile"),
+        ({"yaw": "1 deg", "rail_radius": "500 mm"}, {}, "without yaw"),
+        ({"radius": "1 mm"}, {}, "wheel and rail and rolling_radius for this kind"),
+        ({"wheel": "s1003"}, {}, "catalogue"),
+        ({"wheel": {"catalogue": "s1002", "path": "x.txt"}}, {}, "exactly one of catalogue, path"),
+        ({"wheel": {"path": "none.txt"}}, {}, "no such file"),
+        ({}, {"grid": {"shape": 16, "lengths": "20 mm", "periodic": [False, True]}}, "free grid"),
+    ],
+)
+def test_what_cannot_be_is_refused(shape, tables, message):
+    with pytest.raises(InputError, match=message):
+        load_scene(scene(STANDARD | shape, **tables))
+
+
+def test_spin_of_a_contact_angle_needs_profiles():
+    ball = scene({"kind": "sphere", "radius": "10 mm"}, "rolling", roll={"friction": 0.3, "contact_angle_spin": True})
+    with pytest.raises(InputError, match="contact_angle_spin under a shape of kind sphere"):
+        load_scene(ball)
