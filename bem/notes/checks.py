@@ -316,7 +316,7 @@ RESIDUAL_STRESS = define(
     "residual-stress",
     INFO,
     "Stresses below the surface include residual stresses of layers.",
-    "The {body} body has {found}. Von Mises stress, tension, yielded volume and criteria of stress include it. The "
+    "The {body} body has {found}, which von Mises stress, tension, yielded volume and criteria of stress include. The "
     "contact pressure does not depend on it: it causes no traction across the surface or an interface.",
 )
 PARTICLES_OF_MESH = define(
@@ -395,8 +395,8 @@ HARDNESS_DECIDES = define(
             "finer cells a part of the contact may be."
         ),
         "load": Reason(
-            "The load is {ratio:.2g} of hardness x area of the grid. At this load most of the patch reaches the"
-            " hardness; rough valleys would carry more.",
+            "The load is {ratio:.2g} of hardness x area of the grid, and rough valleys would carry more than the"
+            " hardness.",
             "Take a smaller load or a larger grid.",
             CAUTION,
             foreseen=True,

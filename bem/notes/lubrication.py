@@ -258,12 +258,12 @@ INLET_FRICTION = define(
     "Add it by hand where the inlet is filled that far; no key of a scene adds it.",
     reasons={
         "film": (
-            "The friction coefficient, {friction:.2g}, is the sliding part of the oil's shear on the film's grid,"
+            "The friction coefficient, {friction:.3g}, is the sliding part of the oil's shear on the film's grid,"
             " without rolling resistance; oil that fills the inlet up to twice the distance of the grid's edges adds"
             " {added:.2g}."
         ),
         "mixed": (
-            "The friction coefficient, {friction:.2g}, counts asperities and the sliding part of the oil's shear on the"
+            "The friction coefficient, {friction:.3g}, counts asperities and the sliding part of the oil's shear on the"
             " film's grid, without rolling resistance; oil that fills the inlet up to twice the distance of the grid's"
             " edges adds {added:.2g}."
         ),

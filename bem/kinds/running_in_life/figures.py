@@ -44,10 +44,10 @@ def _wear(run: Any, figure: Figure) -> None:
     cycle = _axis(run, lower)
     upper.set_xlabel("")
     missed = 1e9 * data["depth_error_over_cycles"].values
-    for name, colour in (("lower", BLUE), ("upper", VERMILION)):
+    for name, colour, line in (("lower", BLUE, "-"), ("upper", VERMILION, "--")):  # of one rate both wear alike
         depth = 1e9 * data[f"{name}_depth_over_cycles"].values
-        upper.plot(cycle, 1e9 * data[f"{name}_rms_over_cycles"].values, color=colour, label=f"{name} surface")
-        lower.plot(cycle, depth, color=colour, label=f"{name} surface")
+        upper.plot(cycle, 1e9 * data[f"{name}_rms_over_cycles"].values, line, color=colour, label=f"{name} surface")
+        lower.plot(cycle, depth, line, color=colour, label=f"{name} surface")
         lower.fill_between(cycle, depth - missed, depth + missed, color=colour, alpha=0.2, linewidth=0)
     upper.set_ylabel("Sq of the\nwhole surface (nm)")
     lower.set_ylabel("mean depth\nworn (nm)")
