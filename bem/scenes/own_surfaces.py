@@ -202,18 +202,19 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, 
     elif kind == "running-in-life":
         data["grid"] = {"shape": [cells, min(cells, _MOST_CELLS_ACROSS)], "spacing": _length(cell)}
         slid = data["speeds"]["slide_roll_ratio"] * cells * cell  # of a place while the patch passes
-        return OwnStart(data | {"wear": {"law": data["wear"]["law"] | {"distance": f"{1e6 * slid:.3g} um"}}})
+        data["wear"] = {"law": data["wear"]["law"] | {"distance": f"{1e6 * slid:.3g} um"}}
+        return _mirrored_where_bent(kind, data, found)
     else:
         data["grid"] = {"shape": cells, "spacing": _length(cell)}
     if kind == "friction":
-        return OwnStart(data)
+        return _mirrored_where_bent(kind, data, found)
     if kind == "running-in":
         data["speeds"] = {"values": [data["speeds"]["first"]]}
         # over a whole turn friction does not hang on the place where the roughness of both bodies meets
         turn = round(cells / abs(WearScenePart().shift))
         data["cycles"] = {"count": _CYCLES, "averaged": turn, "coarser_grid": True}
     data["depths"] = {"count": 64, "spacing": _length(cell / 2)}
-    return OwnStart(data | {"wear": _wear(kind, data, cell)})
+    return _mirrored_where_bent(kind, data | {"wear": _wear(kind, data, cell)}, found)
 
 
 def _scale_of(body: str, path: str, scale: MapScale) -> MapScale | None:
@@ -303,8 +304,12 @@ def _on_a_patch(data: dict[str, Any], found: Mapping[str, MeasuredMap]) -> OwnSt
     """
     maps = found.values()
     shape, spacing = _common_cells(maps)
-    if min(shape) < _FEWEST_POINTS:
-        raise _too_few_points(found, shape)
+    points = [
+        math.floor(length / max(one.spacing[axis] for one in maps) * (1 + 1e-9))
+        for axis, length in enumerate(_common_lengths(maps))
+    ]
+    if min(*shape, *points) < _FEWEST_POINTS:
+        raise _too_few_points(found, points)
     lengths = shape[0] * spacing[0], shape[1] * spacing[1]
     cut = {}
     for body, one in found.items():
@@ -341,16 +346,40 @@ def _mirrors(found: Mapping[str, MeasuredMap], cut: Mapping[str, tuple[float, fl
             on_grid = map_on(table.model_copy(update={"mirror": mirror, "crop": cut.get(body, table.crop)}), grid)
             change = max(change, on_grid.seam_change / (float(on_grid.heights.std()) or math.inf))
         if mirror == "none":
-            first = (
-                f"Chosen because the ends of a map do not meet: closing the step would change its heights by "
-                f"{percent(change)} of Sq (more than {percent(MOST_SEAM_CHANGE)})."
-            )
+            first = _why_mirrored(change)
         if change <= MOST_SEAM_CHANGE:
             break
     return mirror, first
 
 
-def _too_few_points(found: Mapping[str, MeasuredMap], shape: tuple[int, int]) -> InputError:
+def _why_mirrored(change: float) -> str:
+    """Return why a map is mirrored. change : of the heights by closing the step instead, over their Sq."""
+    return (
+        f"Chosen because the ends of a map do not meet: closing the step would change its heights by {percent(change)} "
+        f"of Sq (more than {percent(MOST_SEAM_CHANGE)})."
+    )
+
+
+def _mirrored_where_bent(kind: str, data: dict[str, Any], found: Mapping[str, MeasuredMap]) -> OwnStart:
+    """Return a first scene with those maps mirrored on its cells that closing the seams would alter."""
+    from bem.scenes.checks import examine
+
+    tables = {body: one.table | {"path": one.source.path} for body, one in found.items() if one.source is not None}
+    known = {body: {**data[body], "surface": table} for body, table in tables.items()}
+    one_kind = get_kind(kind)
+    facts = examine(one_kind.resolved(one_kind.model.model_validate({**data, **known})))
+    reasons: dict[tuple[str, ...], str] = {}
+    for change, _, surface in facts.worst_surfaces(lambda surface: surface.seams / surface.rms_height):
+        table = surface.table
+        if change > MOST_SEAM_CHANGE and isinstance(table, MeasuredSurface) and table.mirror == "none":
+            body, wraps = surface.body, [axis for axis, on in zip("xy", surface.grid.periodic, strict=True) if on]
+            mirror = "both" if len(wraps) > 1 else wraps[0]
+            data = data | {body: {**data[body], "surface": {**data[body]["surface"], "mirror": mirror}}}
+            reasons[body, "surface", "mirror"] = _why_mirrored(change)
+    return OwnStart(data, reasons)
+
+
+def _too_few_points(found: Mapping[str, MeasuredMap], points: Sequence[int]) -> InputError:
     """Return the refusal of maps on whose points no rough contact can be resolved."""
     fewest = f"{_FEWEST_POINTS} x {_FEWEST_POINTS} points or more"
     for body, one in found.items():
@@ -361,8 +390,8 @@ def _too_few_points(found: Mapping[str, MeasuredMap], shape: tuple[int, int]) ->
             )
     x, y = _common_lengths(found.values())
     return InputError(
-        f"--lower, --upper: the maps have {si(x, 'm')} x {si(y, 'm')} in common, {shape[0]} x {shape[1]} points of the "
-        f"coarser one; allowed: {fewest}; measure both on areas of similar size, with similar spacing"
+        f"--lower, --upper: the maps have {si(x, 'm')} x {si(y, 'm')} in common, {points[0]} x {points[1]} points of "
+        f"the coarser one; allowed: {fewest}; measure both on areas of similar size, with similar spacing"
     )
 
 

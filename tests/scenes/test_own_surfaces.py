@@ -261,6 +261,20 @@ def test_a_map_whose_ends_do_not_meet_is_mirrored_along_these_axes_with_the_reas
     assert not seam_notes(scene)
 
 
+def test_a_loop_of_wear_mirrors_the_map_that_its_seams_would_bend(tmp_path):
+    """The cylinder's grid wraps along y alone."""
+    grid = Grid((200, 200), (0.5e-6, 0.5e-6), periodic=(True, True))
+    heights = generate_surface(grid, rms_height=20e-9, correlation_length=2e-6, seed=1)
+    files = {"upper": _map(tmp_path / "plain.npz", heights, grid.spacing)}
+    files["lower"] = _map(tmp_path / "bent.npz", heights + 400e-9 * np.linspace(-1, 1, 200) ** 3, grid.spacing)
+    scene = tmp_path / "mine.toml"
+    scene.write_text(scene_template("wear", surfaces=files, folder=tmp_path))
+    planned, _ = plan_scene(scene)
+    assert (planned.lower.surface.mirror, planned.upper.surface.mirror) == ("y", "none")
+    assert not seam_notes(scene)
+    assert seam_notes(scene, "lower.surface.mirror=none")
+
+
 def test_cells_of_odd_maps_are_cut_off_and_not_interpolated(tmp_path):
     """189 x 151 of 201 x 151 points lay half a cell off, which smoothed the map along x."""
     rng = np.random.default_rng(2)
