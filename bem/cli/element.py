@@ -140,8 +140,10 @@ def element(
 def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...]) -> None:
     """A line for each case."""
     from bem.cli._terminal import print_written, table
-    from bem.elements.cases import columns, load_cases
-    from bem.elements.element import csv_text
+    from bem.elements.answer import balance_heat
+    from bem.elements.cases import changed_keys, columns, load_cases
+    from bem.elements.element import csv_text, read_element
+    from bem.elements.plain_bush import PlainBushModel
     from bem.errors import InputError
     from bem.results.atomic import write_text
 
@@ -149,13 +151,23 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
         raise InputError(
             "--cases: goes with --table alone; allowed: no --scene, --path, --figure, --contacts or --running beside it"
         )
-    found = columns(load_cases(file, rows))
+    cases, changed = load_cases(file, rows), changed_keys(file, rows)
+    runs: list[Sequence[Running]] = []
+    if not any(one.model.oil is None or isinstance(one.model, PlainBushModel) for one in cases):
+        cases = tuple(balance_heat(one) for one in cases)
+        runs = [_solve(one, whole=False) for one in cases]
+    found = columns(cases, runs, changed)
+    unnamed = [f"{read_element(file)['name']}-{number}" for number in range(1, len(cases) + 1)]
+    named = found["case"] != unnamed
+    hidden = {*([] if named else ["case"]), *([*_BY_FORMULA, "thinnest_by_formula"] if runs else [])}
+    shown = [name for name in found if name not in hidden]
     lines = [
-        tuple(one if isinstance(one, str) else _spelled(name, one) for name, one in zip(found, row, strict=True))
-        for row in zip(*found.values(), strict=True)
+        tuple(one if isinstance(one, str) else _spelled(name, one) for name, one in zip(shown, row, strict=True))
+        for row in zip(*(found[name] for name in shown), strict=True)
     ]
-    head = tuple(_BY_FORMULA.get(name, name.partition(" [")[0].replace("_", " ")) for name in found)
-    table(head, lines, right=range(2, len(found)), leading=2)
+    head = tuple(_CASE_HEADS.get(name, name.partition(" [")[0].replace("_", " ")) for name in shown)
+    leading = len(changed) + named
+    table(head, lines, right=range(leading, len(shown)), leading=leading)
     if out is not None:
         write_text(out, csv_text(found))
         print_written(out)
@@ -164,9 +176,11 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
 def _spelled(name: str, value: float) -> str:
     """A number in the unit of its column's name, "load [N]"."""
     from bem.plots.report import spelled
-    from bem.quantities import with_unit
+    from bem.quantities import plain_digits, with_unit
 
     unit = name.partition(" [")[2].removesuffix("]")
+    if unit == "h" and not math.isnan(value):
+        return f"{plain_digits(value, 3)} h"
     if unit == "K":
         return "" if math.isnan(value) else f"{value - 273.15:.4g} °C"
     if unit == "m/s":
@@ -282,6 +296,20 @@ _BY_FORMULA = {
     "film_over_roughness": "lambda ratio (formula)",
 }
 """Heads of the columns that follow from a film formula; those of a solved film are other values."""
+_CASE_HEADS = {
+    **_BY_FORMULA,
+    "worst": "highest pressure at",
+    "thinnest": "thinnest film at",
+    "solved_minimum_film [m]": "minimum film thickness",
+    "solved_film_over_roughness": "lambda ratio",
+    "viscosity_ratio": "kappa",
+    "basic_life [h]": "L10",
+    "modified_life [h]": "L10m",
+    "static_safety": "C0 / P0",
+    "scuffing_safety_contact_temperature": "scuffing safety (contact temperature)",
+    "scuffing_safety_integral_temperature": "scuffing safety (integral temperature)",
+}
+"""Heads of the table of cases."""
 _HEADS = {
     "load [N]": "load",
     "radius [m]": "radius",

@@ -7,6 +7,7 @@ Hoeprich; of a bush it is that of kind friction.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -25,7 +26,13 @@ from bem.elements.contact import ElementContact
 from bem.elements.element import Element
 from bem.elements.element_wear import particles_per_hour, wear_per_hour, worn_volume_rate
 from bem.elements.gear_pair import GearModel
-from bem.elements.gear_scuffing import CELSIUS, friction_of_gear_tests, scuffing_of, sliding_power
+from bem.elements.gear_scuffing import (
+    CELSIUS,
+    estimated_bulk,
+    friction_of_gear_tests,
+    scuffing_of,
+    sliding_power,
+)
 from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.running import Running, columns, run_all
@@ -124,12 +131,16 @@ def likely_power(element: Element, runs: Sequence[Running]) -> float:
 
 
 def balance_heat(element: Element, *, most: int = PLACES) -> Element:
-    """Return the element with the bulk temperature of its heat balance; the element itself without one.
+    """Return the element with the bulk temperature of its heat balance, or of gears without one an estimate.
 
     The bulk temperature is that of the surroundings plus friction power (`likely_power`) over conductance,
-    found by secants.
+    found by secants. Films of gears are at their bulk temperature, as ISO/TS 6336-22 takes the viscosity in its film
+    thickness (known from textbooks; the standard was not read): without one of the file it is that of scuffing,
+    `bem.elements.gear_scuffing.estimated_bulk`. Other elements without a balance are returned as they are.
     """
     balance = element.model.heat_balance
+    if isinstance(element.model, GearModel) and (estimate := estimated_bulk(element)) is not None:
+        return element.at_bulk(estimate, estimated=True)
     if balance is None or element.model.oil is None or element.model.oil.temperature is None:
         return element
     around = element.model.oil.temperature if balance.ambient is None else balance.ambient
@@ -276,7 +287,20 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
     if touching and thinnest.mixed_friction is not None:
         touching = f"; asperities carry {percent(share)} of the load"
         film += ", if the film carried the whole load"
-    return f"{ratio:.3g} ({regime}{touching}), {film}"
+    cool = ""
+    if element.bulk_estimated:
+        cool = f"; about {_ratio_at_oil(element, thinnest):.3g} if the flanks were only as warm as the oil"
+    return f"{ratio:.3g} ({regime}{touching}), {film}{cool}"
+
+
+def _ratio_at_oil(element: Element, one: Running) -> float:
+    """Return the lambda ratio of a contact with bodies as warm as the oil: the solved one times that of the fits."""
+    model, modulus = element.model, element.modulus
+    assert model.oil is not None
+    assert model.film_oil is not None
+    assert one.film_ratio is not None
+    cool, warm = (one.contact.minimum_film(modulus, oil.build()) for oil in (model.oil, model.film_oil))
+    return one.film_ratio * cool / warm
 
 
 def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str, str]]:
@@ -334,7 +358,13 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
     if model.bulk_temperature is None:
         said += "films solved with bodies as warm as the oil (give bulk_temperature or heat_balance if warmer)"
     else:
-        said += f"bodies {model.bulk_temperature - CELSIUS:.4g} °C, at which films are solved"
+        bulk = f"bodies {model.bulk_temperature - CELSIUS:.4g} °C"
+        if element.bulk_estimated:
+            bulk = (
+                f"flanks {model.bulk_temperature - CELSIUS:.3g} °C (estimate: oil + 0.7 x mean flash temperature; give "
+                "bulk_temperature or heat_balance if you know better)"
+            )
+        said += f"{bulk}, at which films are solved"
         if model.viscosity_fixed and not model.viscosity_notes():
             said += " (the viscosity given is taken at this temperature)"
     hot = [one for one in runs if one.flash is not None]
@@ -356,13 +386,13 @@ def _scuffing(element: Element, runs: Sequence[Running]) -> str:
     if found is None:
         return "not known: give oil.temperature and thermal constants of both materials"
     bulk = f"bulk temperature {found.bulk - CELSIUS:.3g} °C"
-    if found.estimated:
+    if found.estimated and not element.bulk_estimated:
         bulk += " (estimate: oil + 0.7 x mean flash temperature)"
     said = f"contact temperature {found.contact - CELSIUS:.3g} °C at {place_words(element, found.flash_at)}, {bulk}"
     if found.integral is not None and found.friction is not None:
         said += (
-            f"; integral temperature {found.integral - CELSIUS:.3g} °C; both with the friction of gear tests, mean "
-            f"coefficient {found.friction:.3g}"
+            f"; integral temperature {found.integral - CELSIUS:.3g} °C; both with {found.friction:.3g}, the mean "
+            "friction coefficient of ISO/TR 13989 for scuffing, which is not Schlenk's for the power loss"
         )
     else:
         said += "; with the film's friction, too low where surfaces touch: give rms_roughness"
@@ -385,5 +415,6 @@ def _micropitting(element: Element, runs: Sequence[Running]) -> str:
         return f"{said}; for a safety factor give permissible_film_ratio, from a test with this oil and surface finish"
     return (
         f"{said} over {permitted:.3g} permitted: safety factor {ratio / permitted:.3g}. Concept of ISO/TS 6336-22, not "
-        "its procedure: the film is solved with its heat, and roughness is Sq instead of Ra"
+        f"its procedure: the film is solved with its heat, and roughness is Sq of both surfaces together; over the "
+        f"mean Ra of two like ones lambda is {math.sqrt(math.pi):.3g} times that, {math.sqrt(math.pi) * ratio:.3g}"
     )

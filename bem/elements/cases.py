@@ -10,12 +10,21 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
+from typing import Any
 
 from pydantic_core import PydanticCustomError
 
+from bem.elements.answer import likely_power, place_words
+from bem.elements.bearing_life import bearing_life
 from bem.elements.bush_answer import bush_temperature, friction_power_of, wear_life
 from bem.elements.element import Element, load_element, read_element
+from bem.elements.gear_pair import GearModel
+from bem.elements.gear_scuffing import scuffing_of
 from bem.elements.plain_bush import PlainBushModel
+from bem.elements.rating_life import hours
+from bem.elements.rolling_bearing import BearingModel
+from bem.elements.running import Running
 from bem.errors import InputError
 from bem.kinds.traction.along import columns_of
 from bem.scenes.paths import parse_key, put
@@ -30,12 +39,7 @@ def load_cases(source: str | Path, rows: str | Path) -> tuple[Element, ...]:
     InputError : a file that is no such table; keys that the element does not have; one message per mistake.
     """
     table = read_element(source)
-    known = [name for name in type(load_element(table).model).model_fields if name not in ("element", "oil")]
-    known += ["oil.temperature", "oil.grade"] if isinstance(table.get("oil"), Mapping) else []
-    try:
-        columns = columns_of(str(rows), known, ())
-    except PydanticCustomError as error:
-        raise InputError(error.message()) from None
+    columns = _columns_of(table, rows)
     found, messages = [], []
     for number, values in enumerate(zip(*columns.values(), strict=True), 1):
         case = {**table, "name": f"{table['name']}-{number}"}
@@ -52,12 +56,46 @@ def load_cases(source: str | Path, rows: str | Path) -> tuple[Element, ...]:
     return tuple(found)
 
 
-def columns(cases: Sequence[Element]) -> dict[str, list[float | str]]:
-    """A row for each case: the highest load and pressure, the thinnest film and that over the roughness."""
+def changed_keys(source: str | Path, rows: str | Path) -> dict[str, list[str]]:
+    """Return the columns of a text file of cases as they stand there, each number with its unit; without their names.
+
+    Raises
+    ------
+    InputError : as `load_cases`, of the file and its columns.
+    """
+    return {key: values for key, values in _columns_of(read_element(source), rows).items() if key != "name"}
+
+
+def _columns_of(table: Mapping[str, Any], rows: str | Path) -> dict[str, list[str]]:
+    known = [name for name in type(load_element(table).model).model_fields if name not in ("element", "oil")]
+    known += ["oil.temperature", "oil.grade"] if isinstance(table.get("oil"), Mapping) else []
+    try:
+        return columns_of(str(rows), known, ())
+    except PydanticCustomError as error:
+        raise InputError(error.message()) from None
+
+
+def columns(
+    cases: Sequence[Element],
+    runs: Sequence[Sequence[Running]] = (),
+    changed: Mapping[str, Sequence[str]] = MappingProxyType({}),
+) -> dict[str, list[float | str]]:
+    """Return a row for each case: the contact of highest pressure, that of the thinnest film, power, lives, safeties.
+
+    `worst` names the contact of `load` and `hertz_pressure`, `thinnest` that of the film and lambda ratio after it:
+    by the formula, or with solved films `thinnest_by_formula` and `thinnest`.
+
+    Parameters
+    ----------
+    cases : elements, with their heat balanced where `runs` are given.
+    runs : solved films of each case; none at all leaves out what follows from films.
+    changed : `changed_keys`, shown beside the names of cases.
+    """
     found: dict[str, list[float | str]] = {"case": [one.model.name for one in cases]}
+    found |= {key: list(values) for key, values in changed.items()}
     worst = [one.worst() for one in cases]
-    found["worst"] = [contact.name for contact in worst]
-    found["load [N]"] = [max(contact.load for contact in one.found.contacts) for one in cases]
+    found["worst"] = [place_words(one, contact) for one, contact in zip(cases, worst, strict=True)]
+    found["load [N]"] = [contact.load for contact in worst]
     found["hertz_pressure [Pa]"] = [
         contact.hertz(one.modulus).maximum_pressure for one, contact in zip(cases, worst, strict=True)
     ]
@@ -78,8 +116,76 @@ def columns(cases: Sequence[Element]) -> dict[str, list[float | str]]:
             found["wear_life [h]"] = [wear_life(one)[1] for one in bushes]
         del found["hertz_pressure [Pa]"]
     if all("minimum_film [m]" in one.columns() for one in cases):
-        films = [min(one.columns()["minimum_film [m]"]) for one in cases]
-        found["minimum_film [m]"] = list(films)
-        if all(one.model.rms_roughness is not None for one in cases):
-            found["film_over_roughness"] = [min(one.columns()["film_over_roughness"]) for one in cases]
+        found |= _films_by_formula(cases, "thinnest_by_formula" if runs else "thinnest")
+    if runs:
+        known = [[one for one in each if one.converged] for each in runs]
+        if all(known):
+            found |= _known(_solved(cases, known))
+    return found | _known(_lives(cases))
+
+
+def _known(columns: Mapping[str, list[float | str]]) -> dict[str, list[float | str]]:
+    """Return the columns in which a value is known."""
+    return {
+        name: values
+        for name, values in columns.items()
+        if not all(isinstance(one, float) and math.isnan(one) for one in values)
+    }
+
+
+def _number(value: float | None) -> float:
+    return math.nan if value is None else value
+
+
+def _films_by_formula(cases: Sequence[Element], name: str) -> dict[str, list[float | str]]:
+    """Return the contact of the thinnest film by the formula, with that film and its lambda ratio."""
+    films = [one.columns()["minimum_film [m]"] for one in cases]
+    rows = [film.index(min(film)) for film in films]
+    at = list(zip(cases, rows, strict=True))
+    found: dict[str, list[float | str]] = {name: [place_words(one, one.found.contacts[row]) for one, row in at]}
+    found["minimum_film [m]"] = [film[row] for film, row in zip(films, rows, strict=True)]
+    if all(one.model.rms_roughness is not None for one in cases):
+        found["film_over_roughness"] = [one.columns()["film_over_roughness"][row] for one, row in at]
     return found
+
+
+def _solved(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dict[str, list[float | str]]:
+    """Return what follows from the solved films: the thinnest one, friction power, safeties of gears."""
+    thinnest = [min(each, key=lambda one: one.minimum_film) for each in runs]
+    both = list(zip(cases, runs, strict=True))
+    found: dict[str, list[float | str]] = {
+        "thinnest": [place_words(case, one.contact) for case, one in zip(cases, thinnest, strict=True)],
+        "solved_minimum_film [m]": [one.minimum_film for one in thinnest],
+        "solved_film_over_roughness": [_number(one.film_ratio) for one in thinnest],
+        "bulk_temperature [K]": [_number(one.model.bulk_temperature) for one in cases],
+    }
+    if not any(isinstance(one.model, PlainBushModel) for one in cases):
+        found["friction_power [W]"] = [likely_power(case, each) for case, each in both]
+    if all(isinstance(one.model, GearModel) for one in cases):
+        scuffing = [scuffing_of(case, each) for case, each in both]
+        found["scuffing_safety_contact_temperature"] = [
+            math.nan if one is None else _number(one.contact_safety) for one in scuffing
+        ]
+        found["scuffing_safety_integral_temperature"] = [
+            math.nan if one is None else _number(one.integral_safety) for one in scuffing
+        ]
+    found["micropitting_safety"] = [
+        _number(one.film_ratio) / _number(case.model.permissible_film_ratio)
+        for case, one in zip(cases, thinnest, strict=True)
+    ]
+    return found
+
+
+def _lives(cases: Sequence[Element]) -> dict[str, list[float | str]]:
+    """Return rating lives and static safety of bearings; nothing of other elements."""
+    models = [one.model for one in cases if isinstance(one.model, BearingModel)]
+    if not models:
+        return {}
+    lives = [bearing_life(one) for one in cases]
+    modified = [_number(life.rating.modified) for life in lives]
+    return {
+        "viscosity_ratio": [_number(life.rating.viscosity_ratio) for life in lives],
+        "basic_life [h]": [hours(life.rating.basic, one.speed) for life, one in zip(lives, models, strict=True)],
+        "modified_life [h]": [hours(life, one.speed) for life, one in zip(modified, models, strict=True)],
+        "static_safety": [life.static_rating / life.static_load for life in lives],
+    }

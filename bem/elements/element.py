@@ -97,10 +97,14 @@ MIXED = ("friction", "running-in")
 
 @dataclass(frozen=True)
 class Element:
-    """An element as its file says it; `table` is that, `model` what it means."""
+    """An element as its file says it; `table` is that, `model` what it means.
+
+    bulk_estimated : True if the bulk temperature is an estimate in place of one of the file.
+    """
 
     model: ElementModel
     table: Mapping[str, Any]
+    bulk_estimated: bool = False
 
     @cached_property
     def found(self) -> Contacts:
@@ -123,11 +127,11 @@ class Element:
             raise self._no_contact()
         return max(self.found.contacts, key=lambda one: one.hertz(self.modulus).maximum_pressure)
 
-    def at_bulk(self, temperature: float) -> Element:
+    def at_bulk(self, temperature: float, *, estimated: bool = False) -> Element:
         """Return the element with bodies of a temperature [K], in place of its bulk temperature or heat balance."""
         table = {key: value for key, value in self.table.items() if key not in ("bulk_temperature", "heat_balance")}
         changes = {"bulk_temperature": temperature, "heat_balance": None}
-        return Element(self.model.model_copy(update=changes), table | {"bulk_temperature": temperature})
+        return Element(self.model.model_copy(update=changes), table | {"bulk_temperature": temperature}, estimated)
 
     def _film_oil(self) -> OilScene:
         assert self.model.film_oil is not None

@@ -107,7 +107,7 @@ def scuffing_of(element: Element, runs: Sequence[Running]) -> Scuffing | None:
     where = max(flashes, key=lambda one: flashes[one])
     flash = flashes[where]
     mean = None if friction is None else mean_flash_temperature(element, friction)
-    bulk, estimated = model.bulk_temperature, False
+    bulk, estimated = model.bulk_temperature, element.bulk_estimated
     if bulk is None:
         bulk, estimated = oil + BULK_WEIGHT * (mean or 0.0), mean is not None
     integral = None if mean is None else integral_temperature(bulk, mean)
@@ -126,6 +126,25 @@ def scuffing_of(element: Element, runs: Sequence[Running]) -> Scuffing | None:
     return Scuffing(
         bulk, estimated, friction, flash, where, bulk + flash, mean, integral, contact_safety, integral_safety
     )
+
+
+def estimated_bulk(element: Element) -> float | None:
+    """Return the bulk temperature of a gear pair [K]: the oil's plus 0.7 times the mean flash temperature.
+
+    None where the file has a bulk temperature or a heat balance, and without the oil's temperature, a viscosity that
+    follows it, roughness or the bodies' thermal constants. The mean flash temperature is that of scuffing, under the
+    friction of gear tests at the oil's temperature.
+    """
+    model = element.model
+    assert isinstance(model, GearModel)
+    oil, tests = model.oil, friction_of_gear_tests(element)
+    if model.bulk_temperature is not None or model.heat_balance is not None or tests is None:
+        return None
+    assert oil is not None
+    if oil.temperature is None or (oil.viscosity is not None and oil.temperature_viscosity is None):
+        return None
+    mean = mean_flash_temperature(element, tests.scuffing)
+    return None if mean is None else oil.temperature + BULK_WEIGHT * mean
 
 
 def mean_flash_temperature(element: Element, friction: float) -> float | None:

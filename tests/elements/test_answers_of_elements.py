@@ -2,6 +2,7 @@
 
 import functools
 import math
+import re
 import tomllib
 
 import pytest
@@ -11,7 +12,12 @@ from bem import InputError
 from bem.elements.answer import PLACES, answer, balance_heat, friction_power, likely_power
 from bem.elements.bearing_life import bearing_life
 from bem.elements.element import MODELS, element_template, load_element
-from bem.elements.gear_scuffing import friction_of_gear_tests, sliding_power
+from bem.elements.gear_scuffing import (
+    friction_of_gear_tests,
+    mean_flash_temperature,
+    scuffing_of,
+    sliding_power,
+)
 from bem.elements.rating_life import dynamic_rating
 from bem.elements.running import operating_places, run_all, run_contact
 
@@ -182,8 +188,32 @@ def test_the_heat_balance_balances():
     power = friction_power(hot, run_all(hot)).with_asperities
     assert hot.model.bulk_temperature == pytest.approx(343.15 + power / 2, abs=0.5)
     assert hot.model.bulk_temperature > 348
-    plain = element_of("gear-pair", points=5)
+    plain = load_element(STEEL_BEARING)
     assert balance_heat(plain) is plain
+
+
+def test_films_of_gears_are_at_the_estimated_bulk_temperature():
+    """Without one of the file: the oil's plus 0.7 mean flash temperatures, as in scuffing; else that of the file."""
+    gears = element_of("gear-pair", points=5)
+    warm = balance_heat(gears)
+    oil = gears.model.oil.temperature
+    mean = mean_flash_temperature(gears, friction_of_gear_tests(gears).scuffing)
+    assert warm.model.bulk_temperature == pytest.approx(oil + 0.7 * mean)
+    runs = [run_contact(warm, warm.found.contacts[0])]
+    assert scuffing_of(warm, runs).bulk == warm.model.bulk_temperature
+    assert scuffing_of(warm, runs).estimated
+    said = dict(answer(warm, runs))
+    assert "estimate: oil + 0.7 x mean flash temperature" in said["temperatures"]
+    cool = float(re.search(r"about ([\d.]+) if the flanks", said["lambda ratio"])[1])
+    assert cool == pytest.approx(run_contact(gears, gears.found.contacts[0]).film_ratio, rel=0.05)
+    assert warm.model.film_oil.temperature == warm.model.bulk_temperature
+    for change in (
+        {"bulk_temperature": "100 degC"},
+        {"rms_roughness": None},
+        {"oil": {"viscosity": "10 mPa*s", "pressure_viscosity": "20 1/GPa", "temperature": "90 degC"}},
+    ):
+        known = element_of("gear-pair", points=5, **change)
+        assert balance_heat(known) is known
 
 
 def test_boundary_friction_of_the_element_is_that_of_its_scenes():

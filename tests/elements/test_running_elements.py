@@ -12,11 +12,13 @@ from command_line import run_command
 
 from bem import InputError, load_scene, run_scene
 from bem.elements.answer import answer, friction_power
+from bem.elements.bearing_life import bearing_life
+from bem.elements.cases import changed_keys, load_cases
 from bem.elements.cases import columns as case_columns
-from bem.elements.cases import load_cases
 from bem.elements.element import element_template, load_element
 from bem.elements.element_wear import worn_volume_rate
 from bem.elements.gear_pair import path_of_contact
+from bem.elements.gear_scuffing import scuffing_of
 from bem.elements.running import columns, notes, run_all, run_contact, wear_per_pass
 from bem.errors import Status
 from bem.kinds.traction.run import case_of
@@ -199,6 +201,31 @@ def test_cases_are_rows_of_a_table(tmp_path):
     found = case_columns(cases)
     assert found["hertz_pressure [Pa]"][1] == cases[1].worst().hertz(cases[1].modulus).maximum_pressure
     assert found["minimum_film [m]"][0] == min(cases[0].columns()["minimum_film [m]"])
+
+
+def test_values_of_a_case_are_of_the_contact_that_its_row_names(tmp_path):
+    """Pressure and load of one contact, film and lambda of another; at 20 000 rpm the outer ring has a higher load."""
+    file, rows = tmp_path / "b.toml", tmp_path / "c.csv"
+    file.write_text(element_template("rolling-bearing"))
+    rows.write_text("radial_load [N], speed [rpm]\n600, 20000\n4000, 3000\n")
+    cases = load_cases(file, rows)
+    assert max(one.load for one in cases[0].found.contacts) > 1.1 * cases[0].worst().load
+    found = case_columns(cases, [[run_contact(one, one.worst())] for one in cases], changed_keys(file, rows))
+    assert found["speed"] == ["20000 rpm", "3000 rpm"]
+    assert found["load [N]"] == [one.worst().load for one in cases]
+    assert found["worst"] == found["thinnest"] == ["inner ring, 0 deg"] * 2
+    life = bearing_life(cases[1]).rating
+    assert found["basic_life [h]"][1] == pytest.approx(life.basic / (60 * 3000))
+    assert found["modified_life [h]"][1] == pytest.approx(life.modified / (60 * 3000))
+    assert found["friction_power [W]"][0] > found["friction_power [W]"][1] > 0
+    gears = element_of("gear-pair", points=5, scuffing_load_stage=10, permissible_film_ratio=0.5)
+    film = run_contact(gears, gears.found.contacts[0])
+    row = {name: values[0] for name, values in case_columns([gears], [[film]]).items()}
+    assert row["thinnest"] == row["thinnest_by_formula"] == "A (9.5 mm before C)"
+    assert row["worst"] != row["thinnest"]
+    assert row["load [N]"] == gears.worst().load
+    assert row["micropitting_safety"] == pytest.approx(film.film_ratio / 0.5)
+    assert row["scuffing_safety_contact_temperature"] == scuffing_of(gears, [film]).contact_safety
 
 
 @pytest.mark.internal
