@@ -99,17 +99,19 @@ def stored(name: str) -> dict[str, Any]:
 
 def scene_of(name: str) -> str | dict[str, Any]:
     """Return the scene of an example: its file, or the path of contact of its gear pair."""
+    from bem.elements.answer import balance_heat
     from bem.elements.element import load_element
 
     path = HERE / name / "scene.toml"
-    return str(path) if path.exists() else load_element(HERE / name / ELEMENTS[name]).path_scene()
+    return str(path) if path.exists() else balance_heat(load_element(HERE / name / ELEMENTS[name])).path_scene()
 
 
 def of_element(name: str) -> dict[str, float]:
     """Return the numbers of a machine element that `bem element` shows."""
+    from bem.elements.answer import balance_heat
     from bem.elements.element import load_element
 
-    element = load_element(HERE / name / ELEMENTS[name])
+    element = balance_heat(load_element(HERE / name / ELEMENTS[name]))
     columns = element.columns()
     return {
         "contacts": float(len(element.found.contacts)),
@@ -122,10 +124,11 @@ def of_element(name: str) -> dict[str, float]:
 
 def of_operation(name: str) -> dict[str, float]:
     """Return the numbers of a machine element with its thermal films, as `bem element --running` shows them."""
+    from bem.elements.answer import balance_heat
     from bem.elements.element import load_element
     from bem.elements.running import run_all
 
-    element = load_element(HERE / name / ELEMENTS[name])
+    element = balance_heat(load_element(HERE / name / ELEMENTS[name]))
     runs = run_all(element)
     return {
         "friction_power_W": sum(run.power for run in runs) / len(runs) * element.found.at_once,
