@@ -154,12 +154,14 @@ def _section(run: Any, figure: Figure) -> None:
     upper.plot(x[touch] * factor_x, deformed[touch] * 1e9, ".", color=VERMILION, markersize=4, label="in contact")
     low = float(deformed[seen].min()) * 1e9
     high = 1.4e9 * float(np.quantile(data["film_thickness_patch"].values[seen], 0.75))
-    upper.set_ylim(low * 1.05, max(high, deformed[seen].max() * 1e9 * 1.4))
+    tallest = max(deformed[seen].max(), plane[seen].max()) * 1e9
+    upper.set_ylim(low * 1.05, max(high, tallest + 0.35 * (tallest - low)))  # the legend is above
     upper.set_ylabel("height (nm)")
     upper.legend(fontsize=8, ncols=2, loc="upper center")
     apart = float(shift.mean())
     upper.set_title(
-        f"mean planes {with_unit(abs(apart), 'm')} {'closer' if apart > 0 else 'farther'} than the film is thick",
+        f"mean planes {with_unit(abs(apart), 'm')} {'closer together' if apart > 0 else 'farther apart'} than the film "
+        "is thick",
         fontsize=8.5,
     )
     lower.plot(x[seen] * factor_x, data["film_pressure_patch"].values[seen] * 1e-6, color=BLUE, label="film")
