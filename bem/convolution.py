@@ -191,20 +191,29 @@ def _mean_response(body: Body, wavenumber: float) -> float:
     return float(frequency_response.surface_response(wavenumber, 0.0, body, Load.NORMAL))
 
 
+def pressure_terms(bodies: tuple[Body, ...]) -> list[tuple[Body, float]]:
+    """Return the bodies whose responses to pressure are computed, each with its factor in the sum of both bodies."""
+    return _terms(bodies, Load.NORMAL)
+
+
+def _terms(bodies: tuple[Body, ...], load: Load) -> list[tuple[Body, float]]:
+    """Return the bodies whose kernels are computed, and their factors: sum for pressure, difference for traction."""
+    signs = (1.0, 1.0) if load is Load.NORMAL else (1.0, -1.0)
+    if not all(body.boussinesq for body in bodies):
+        return list(zip(bodies, signs, strict=False))
+    # kernels of homogeneous, isotropic half-spaces are proportional to each other: one is computed
+    factors = [1 / b.material.plane_strain_modulus if load is Load.NORMAL else _coupling(b) for b in bodies]
+    first = max(range(len(bodies)), key=lambda i: abs(factors[i]))
+    scale = sum(s * f for s, f in zip(signs, factors, strict=False)) / factors[first]
+    return [(bodies[first], scale)]
+
+
 def _spectrum_of_pair(grid: Grid, bodies: tuple[Body, ...], load: Load) -> FloatArray:
     """Compute the spectrum [m/Pa] of the kernel of both bodies: the sum for pressure, lower minus upper for traction.
 
     (py // 2 + 1, px // 2 + 1); the imaginary part for traction.
     """
-    signs = (1.0, 1.0) if load is Load.NORMAL else (1.0, -1.0)
-    if all(body.boussinesq for body in bodies):
-        # kernels of homogeneous, isotropic half-spaces are proportional to each other: one is computed
-        factors = [1 / b.material.plane_strain_modulus if load is Load.NORMAL else _coupling(b) for b in bodies]
-        first = max(range(len(bodies)), key=lambda i: abs(factors[i]))
-        scale = sum(s * f for s, f in zip(signs, factors, strict=False)) / factors[first]
-        terms = [(bodies[first], scale)]
-    else:
-        terms = list(zip(bodies, signs, strict=False))
+    terms = _terms(bodies, load)
     padded = padded_shape(grid.shape, grid.periodic)
     parity = EVEN if load is Load.NORMAL else ODD_IN_X
     total: FloatArray | None = None

@@ -131,6 +131,10 @@ def run(
     ] = None,
     workers: WorkersOption = None,
     scheduler: SchedulerOption = None,
+    ranks: Annotated[
+        bool,
+        typer.Option("--ranks", help="Share each contact among the processes that mpiexec started; dry contacts only."),
+    ] = False,
 ) -> None:
     """Run a scene: results, figures and a report in one folder.
 
@@ -143,35 +147,41 @@ def run(
       bem run my-scene.toml --out first --set contact.load="5 N"
       bem run my-scene.toml --accuracy 1%
       bem run my-scene.toml --out first --resume
+      mpiexec -n 4 bem run my-scene.toml --ranks
     """
-    from bem.cli._terminal import print_files, print_numbers, resumable
-    from bem.runs import run_scene
-    from bem.scenes import get_kind
-    from bem.threads import set_threads
+    from bem.distributed.session import shared_run
 
-    if threads is not None:
-        set_threads(threads)
-    if resume and out is None and (Path(scene) / "scene.toml").is_file():
-        out = Path(scene)
-    prepare_first_run(scene, set_ or (), asked(accuracy))
-    with resumable() as terminal:
-        done = run_scene(
-            scene,
-            out,
-            settings=set_ or (),
-            accuracy=asked(accuracy),
-            resume=resume,
-            overwrite=overwrite,
-            figures=figures,
-            workers=workers,
-            scheduler=scheduler,
-            watcher=terminal,
-            pdf=pdf,
-        )
-    if not terminal.printed:  # a run that was finished before
-        print_numbers(done.summary, get_kind(done.summary["kind"]).headline)
-    print_files(done.path)
-    if done.summary["status"] != "converged":
-        what = "" if done.summary["status"] == "inaccurate" else "not converged: "
-        typer.echo(f"bem: {what}{done.summary['where']}", err=True)
-        raise typer.Exit(3)
+    with shared_run(ranks) as leads:
+        if not leads:
+            return
+        from bem.cli._terminal import print_files, print_numbers, resumable
+        from bem.runs import run_scene
+        from bem.scenes import get_kind
+        from bem.threads import set_threads
+
+        if threads is not None:
+            set_threads(threads)
+        if resume and out is None and (Path(scene) / "scene.toml").is_file():
+            out = Path(scene)
+        prepare_first_run(scene, set_ or (), asked(accuracy))
+        with resumable() as terminal:
+            done = run_scene(
+                scene,
+                out,
+                settings=set_ or (),
+                accuracy=asked(accuracy),
+                resume=resume,
+                overwrite=overwrite,
+                figures=figures,
+                workers=workers,
+                scheduler=scheduler,
+                watcher=terminal,
+                pdf=pdf,
+            )
+        if not terminal.printed:  # a run that was finished before
+            print_numbers(done.summary, get_kind(done.summary["kind"]).headline)
+        print_files(done.path)
+        if done.summary["status"] != "converged":
+            what = "" if done.summary["status"] == "inaccurate" else "not converged: "
+            typer.echo(f"bem: {what}{done.summary['where']}", err=True)
+            raise typer.Exit(3)

@@ -110,6 +110,26 @@ def odd_surface_response(grid: Grid, body: Body) -> FloatArray | None:
     return crystal_response(kx, ky, body.material) * ((odd_x == kx) & (odd_y == ky))
 
 
+def pressure_response(grid: Grid, body: Body, columns: slice) -> FloatArray:
+    """Return the response to harmonic unit pressures at kx >= 0 and some ky, (nx // 2 + 1, columns) [m/Pa].
+
+    columns : range of wavenumbers along y. The values are those of `surface_response`, which is even in kx.
+
+    Raises
+    ------
+    InputError : a grid that is not periodic along both axes.
+    """
+    _check(grid)
+    kx, ky = grid.wavevectors()
+    kx, ky = np.abs(kx[: grid.shape[0] // 2 + 1]), ky[:, columns]
+    if not body.homogeneous:
+        return frequency_response.surface_response(kx, ky, body, Load.NORMAL)
+    if not body.boussinesq:
+        return np.asarray(special_surface(body.material).surface_response(kx, ky, body.material))
+    q = np.hypot(kx, ky)
+    return np.divide(2 / body.material.plane_strain_modulus, q, out=np.zeros_like(q), where=q > 0)
+
+
 def in_plane_response(grid: Grid, body: Body) -> FloatArray:
     """Return the in-plane surface displacements under harmonic unit tractions, shape (3, nx, ny//2 + 1) [m/Pa].
 

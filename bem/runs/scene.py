@@ -13,6 +13,7 @@ import bem
 from bem.campaigns import Computed, campaign_of, compute, plan
 from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff
+from bem.distributed.session import current_session
 from bem.errors import ConvergenceError, InputError, Status
 from bem.notes import Level, Note, outside
 from bem.notes.merge import without_foreseen
@@ -102,6 +103,8 @@ def run_scene(
     check_out(out)
     formats = ("vtu", *(("png", "pdf") if pdf else ("png",))) if figures else ("vtu",)
     scene, planned = plan_scene(source, settings, accuracy)
+    if current_session() is not None:
+        workers = _on_ranks(scene, workers, scheduler)
     check_memory(planned)
     held = RunDirectory.start(
         None if out is None else Path(out), scene.name, dump_scene(scene), resume=resume, overwrite=overwrite
@@ -112,6 +115,23 @@ def run_scene(
         else:
             run_planned(directory, scene, planned, Staff(workers, scheduler), formats, watcher or Silent())
     return open_run(directory.path)
+
+
+def _on_ranks(scene: SceneModel, workers: int | None, scheduler: str | None) -> int:
+    """Return the number of workers of a scene on several ranks, one; refuse what they cannot do.
+
+    Raises
+    ------
+    InputError : another kind of scene, options that hold in one process only, workers or a scheduler as well.
+    """
+    if scheduler is not None or (workers or 1) > 1:
+        raise InputError("--ranks with --workers or --scheduler; allowed: --ranks alone, its cases run one by one")
+    refuse = get_kind(scene.kind).refuse_on_ranks
+    if refuse is None:
+        raise InputError(f'--ranks: scenes of kind "{scene.kind}" run in one process; allowed: kind = "contact"')
+    for case in campaign_of(scene).cases:
+        refuse(case.scene)
+    return 1
 
 
 def check_out(out: str | os.PathLike[str] | None) -> None:

@@ -66,6 +66,8 @@ class Kind:
     warm_up : built-in scenes and the settings that make them small; their runs compile the loops of the kind.
     by_tangent : whether `run` itself propagates the uncertainty of a scene's key (`Record.input_changes`); otherwise
         the run is repeated on both sides of the value.
+    refuse_on_ranks : raises InputError for a scene whose contact several processes (`bem.distributed`) cannot solve;
+        None where no scene of the kind can be run so.
     task : of a kind from outside the package, under which lists show it; a folder of `bem/kinds` says its own.
     """
 
@@ -87,6 +89,7 @@ class Kind:
     contacts: Callable[[Any], list[Any]] | None = None
     warm_up: tuple[tuple[str, tuple[str, ...]], ...] = ()
     by_tangent: Callable[[Any, str], bool] = lambda scene, key: False
+    refuse_on_ranks: Callable[[Any], None] | None = None
     task: str = OTHER
 
     def __post_init__(self) -> None:

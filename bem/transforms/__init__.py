@@ -34,7 +34,7 @@ and scipy's transforms.
 
 from bem.transforms.cache import set_transform_memory, transform_memory, transform_of
 from bem.transforms.count import COUNT, TransformCount
-from bem.transforms.kernel_spectra import kernel_spectrum, offset_cosines
+from bem.transforms.kernel_spectra import half_spectrum, kernel_spectrum, offset_cosines
 from bem.transforms.multipliers import Multiplier, multiplier
 from bem.transforms.padded import PaddedTransform
 from bem.transforms.padding import narrowed_lengths, padded_length, padded_shape
@@ -44,6 +44,7 @@ __all__ = [
     "Multiplier",
     "PaddedTransform",
     "TransformCount",
+    "half_spectrum",
     "kernel_spectrum",
     "multiplier",
     "narrowed_lengths",

@@ -34,14 +34,14 @@ def kernel_spectrum(
     (py // 2 + 1, px // 2 + 1), real, in double precision; zero beyond half of a shorter length. The true spectrum is
     this times i for each odd axis (a factor -1 if both are), and at px - k it is parity_x times that at k.
     """
-    result = np.ascontiguousarray(_half_spectrum(coefficients, padded[1], parity[1]).T)
+    result = np.ascontiguousarray(half_spectrum(coefficients, padded[1], parity[1]).T)
     COUNT.kernels += 1
     if lengths is None:
-        return np.ascontiguousarray(_half_spectrum(result, padded[0], parity[0]))
+        return np.ascontiguousarray(half_spectrum(result, padded[0], parity[0]))
     narrow = np.zeros((len(lengths), padded[0] // 2 + 1))
     for length in set(lengths):
         rows = np.array(lengths) == length
-        narrow[rows, : length // 2 + 1] = _half_spectrum(result[rows], length, parity[0])
+        narrow[rows, : length // 2 + 1] = half_spectrum(result[rows], length, parity[0])
     return narrow
 
 
@@ -55,7 +55,7 @@ def offset_cosines(length: int, offsets: NDArray[np.int64]) -> FloatArray:
     return np.asarray(weights * np.cos(2 * np.pi / length * (np.outer(offsets, wavenumbers) % length)))
 
 
-def _half_spectrum(values: FloatArray, length: int, parity: int) -> FloatArray:
+def half_spectrum(values: FloatArray, length: int, parity: int) -> FloatArray:
     """Return the transform along the last axis of even (odd) sequences from half of each: real (imaginary) part.
 
     values : (rows, m), at the non-negative offsets. Returns (rows, length // 2 + 1).

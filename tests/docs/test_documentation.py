@@ -241,7 +241,9 @@ def test_keys_that_pages_name_exist():
     assert seen > 10
 
 
-API_PACKAGES = ("contact", "friction", "viscoelastic", "relaxation", "adhesion", "lubrication.waves", "profiles")
+API_PACKAGES = (
+    *("contact", "friction", "viscoelastic", "relaxation", "adhesion", "lubrication.waves", "profiles", "distributed"),
+)
 """Packages whose public names are on the pages of the API beside those of `bem`."""
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bem.kinds.contact.checks import contacts
 from bem.kinds.contact.errors import RESOLUTIONS
+from bem.kinds.contact.parallel import refuse_on_ranks
 from bem.kinds.contact.plan import plan
 from bem.kinds.contact.record import ContactRecord, summarise
 from bem.kinds.contact.run import run
@@ -24,6 +25,7 @@ KIND = Kind(
     volumes=lambda scene: scene.outputs.volumes,
     contacts=contacts,
     by_tangent=by_tangent,
+    refuse_on_ranks=refuse_on_ranks,
     figures=(
         "pressure-map",
         "contact-map",

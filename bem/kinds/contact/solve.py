@@ -26,7 +26,10 @@ def solve_scene(
 ) -> tuple[ContactSolution, FloatArray]:
     """The contact, from the checkpoint where it was solved before, and (n, 2) iterations and residuals."""
     from bem.contact import solve_contact
+    from bem.distributed.session import current_session
 
+    session = current_session()
+    solve = solve_contact if session is None else session.solve_contact
     solved: tuple[ContactSolution, FloatArray] | None = kept(context)
     if solved is not None:
         return solved
@@ -40,7 +43,7 @@ def solve_scene(
         context.progress(int(100 * min(share, 1.0)), 100, "contact", residual=residual, area_fraction=fraction)
 
     asked = scene.contact.prescribed(grid.area) | scene.contact.accuracy()
-    solution = solve_contact(undeformed, operator, **asked, initial_pressure=_begin(context, grid), callback=watch)
+    solution = solve(undeformed, operator, **asked, initial_pressure=_begin(context, grid), callback=watch)
     del operator  # and with it its spectra
     context.progress(100, 100, "contact", residual=solution.residual)
     solved = solution, np.array(history, dtype=np.float64).reshape(-1, 2)

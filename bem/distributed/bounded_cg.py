@@ -1,0 +1,260 @@
+"""Bounded conjugate gradients on slabs: the pressure at an approach, and the approach of a load.
+
+At an approach d the pressure minimises E(p) = p.Kp/2 + p.(g - d) subject to 0 <= p <= hardness. An iteration, with the
+deformed gap h = g + Kp - d:
+
+1. The active cells are those between the bounds and those at a bound that violate it: open cells that overlap, and
+   cells at the hardness whose gap opens. The residual is -h there.
+2. The direction is the preconditioned residual on the active cells, plus the last direction there times Polak and
+   Ribiere's coefficient, not less than zero. The preconditioner convolves with the stiffness of harmonic waves
+   (Vollebregt 2014), so iterations hardly grow with the number of cells.
+3. The step minimises the energy along the direction. Where it leaves the bounds, the pressure is projected onto them
+   (Polonsky and Keer 1999), and the step shortened to the minimum on the segment between both, on which the
+   displacement is linear.
+4. Where the projected step does not lower the energy, a projected gradient step takes its place, of length one over the
+   largest response: it always lowers the energy. So no step raises it.
+
+A load is met by the approach: whenever the violation is small against the error of the load, a secant step within a
+bracket gives the next approach. The load rises with the approach, so there is one answer.
+
+The approach, not a shift of the pressures, carries the load: with a hardness a uniform shift displaces far more than it
+mends, and the iteration hardly converges.
+
+Cost: an iteration takes two convolutions, three where it projects, four after a rejected step.
+
+Sources: Polonsky and Keer, Wear 231 (1999) 206; Vollebregt, J. Comput. Phys. 257 (2014) 333; neither original was at
+hand, the algorithm follows from the energy.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.distributed.convolution import SlabConvolution
+from bem.distributed.ranks import reduce_rows
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+_LEAST_STEP = 0.02
+"""Least fraction of a projected step that is taken; below it a gradient step follows."""
+
+_CLOSED = 1e-12
+"""Width of a bracket of approaches, over the approach, at which it is closed: above rounding."""
+
+_STALLED = 150
+"""Iterations without a violation lower by a tenth after which the solution stops."""
+
+
+@dataclass(frozen=True)
+class SlabProblem:
+    """Own rows of a contact problem.
+
+    convolution : of the bodies. gap : (own rows, ny), lowest value of all ranks zero [m]. cap : highest pressure [Pa].
+    """
+
+    convolution: SlabConvolution
+    gap: FloatArray
+    cap: float
+
+    def reduce(self, sums: tuple[FloatArray, ...] = (), maxima: tuple[FloatArray, ...] = ()) -> tuple[list[float], ...]:
+        """Return the sums of fields (own rows, ny) over all cells of all ranks, and the maxima of others."""
+        return reduce_rows(
+            self.convolution.ranks,
+            self.convolution.grid.shape[0],
+            tuple(field.sum(axis=1) for field in sums),
+            tuple(field.max(axis=1) for field in maxima),
+        )
+
+
+class Iterate(NamedTuple):
+    """A pressure within the bounds and its displacement, own rows."""
+
+    pressure: FloatArray
+    displacement: FloatArray
+
+
+class Direction(NamedTuple):
+    """A search direction, the residual that it was made of, and that residual's product with the preconditioned one."""
+
+    values: FloatArray
+    residual: FloatArray
+    product: float
+
+
+@dataclass
+class ApproachSearch:
+    """The approach: prescribed, or that of a prescribed load.
+
+    approach : present value [m], above the gap's lowest value.
+    force : prescribed sum of pressures [Pa]; None where the approach is prescribed.
+    limits : approaches below and above that of the load [m].
+    scale : length over which the load changes by its own size [m]; for the first change of the approach.
+    ratio : violation relative to the error of the load below which the load is good enough for a change.
+    """
+
+    approach: float
+    force: float | None = None
+    limits: tuple[float, float] = (0.0, math.inf)
+    scale: float = math.inf
+    ratio: float = 0.3
+    _bracket: tuple[float, float] | None = None
+    _last: tuple[float, float] | None = None
+
+    def error(self, force: float) -> float:
+        """Return the relative error of the load, with its sign; zero where the approach is prescribed."""
+        return 0.0 if self.force is None else (force - self.force) / self.force
+
+    def is_due(self, error: float, violation: float) -> bool:
+        """Return True if the violation, over its reference, is small against the error of the load."""
+        return violation <= self.ratio * min(1.0, abs(error))
+
+    def advance(self, error: float) -> None:
+        """Change the approach after an error of the load: a secant step within the bracket, else bisection.
+
+        Loads of pressures that still violate the contact conditions may bracket wrongly. A bracket that has closed
+        before the load is met is opened again, and pressures are then asked to be ten times as exact.
+        """
+        here = self.approach
+        low, high = self._bracket or self.limits
+        low, high = (max(low, here), high) if error < 0 else (low, min(high, here))
+        if math.isfinite(high) and high - low <= _CLOSED * high:
+            self.ratio *= 0.1
+            (low, high), self._last = self.limits, None
+        step = -error * min(self.scale, 2 / 3 * here)  # two thirds: a ball's load grows as approach^(3/2)
+        if self._last is not None and self._last[1] != error:
+            step = -error * (here - self._last[0]) / (error - self._last[1])
+        trial = here + step
+        if not low < trial < high:
+            trial = 0.5 * (low + high) if math.isfinite(high) else 2 * here
+        self._last, self.approach, self._bracket = (here, error), trial, (low, high)
+
+
+@dataclass(frozen=True)
+class BoundedResult:
+    """Last iterate, its approach above the gap's lowest value [m], iterations, and whether the tolerance was met."""
+
+    iterate: Iterate
+    approach: float
+    iterations: int
+    met: bool
+    stalled: bool
+
+
+def solve_bounded(
+    problem: SlabProblem,
+    search: ApproachSearch,
+    pressure: FloatArray,
+    *,
+    tolerance: float,
+    reference: Callable[[float], float],
+    max_iterations: int,
+    callback: Callable[[int, float, float], object] | None = None,
+) -> BoundedResult:
+    """Iterate until the largest violation and the error of the load meet the tolerance; collective.
+
+    pressure : first own rows, within the bounds [Pa].
+    reference : returns what a violation is relative to [m], from the largest displacement [m].
+    callback : called with iterations, residual and the fraction of cells in contact.
+    """
+    iterate = Iterate(pressure, problem.convolution.displacement(pressure))
+    direction: Direction | None = None
+    best, since = math.inf, 0
+    for iteration in range(max_iterations + 1):
+        deformed = problem.gap + iterate.displacement - search.approach
+        (force, loaded), (violation, displacement) = problem.reduce(
+            (iterate.pressure, (iterate.pressure > 0).astype(np.float64)),
+            (_violations(problem, iterate.pressure, deformed), np.abs(iterate.displacement)),
+        )
+        scale, error = reference(displacement), search.error(force)
+        residual = max(max(violation, 0.0) / scale, abs(error))
+        if callback is not None:
+            callback(iteration, residual, loaded / problem.convolution.grid.cells)
+        if residual <= tolerance:
+            return BoundedResult(iterate, search.approach, iteration, met=True, stalled=False)
+        best, since = (residual, 0) if residual < 0.9 * best else (best, since + 1)
+        if since > _STALLED:
+            return BoundedResult(iterate, search.approach, iteration, met=False, stalled=True)
+        if abs(error) > tolerance and search.is_due(error, violation / scale):
+            search.advance(error)
+            direction = None
+            continue
+        iterate, direction = _step(problem, iterate, deformed, direction)
+    return BoundedResult(iterate, search.approach, max_iterations, met=False, stalled=False)
+
+
+def _violations(problem: SlabProblem, pressure: FloatArray, deformed: FloatArray) -> FloatArray:
+    """Return by how much each cell violates the contact conditions [m]; negative where a cell meets an inequality."""
+    capped = np.where(pressure >= problem.cap, deformed, np.abs(deformed))
+    return np.where(pressure <= 0, -deformed, capped)
+
+
+def _active(problem: SlabProblem, pressure: FloatArray, deformed: FloatArray) -> BoolArray:
+    """Return True for cells between the bounds and for those that violate the bound they are at."""
+    return np.where(pressure <= 0, deformed < 0, (pressure < problem.cap) | (deformed > 0))
+
+
+def _step(
+    problem: SlabProblem, iterate: Iterate, deformed: FloatArray, last: Direction | None
+) -> tuple[Iterate, Direction | None]:
+    """Take a step of conjugate gradients, projected onto the bounds, or a gradient step where that does not help."""
+    pressure = iterate.pressure
+    active = _active(problem, pressure, deformed)
+    residual = np.where(active, -deformed, 0.0)
+    preconditioned = np.where(active, problem.convolution.precondition(residual), 0.0)
+    if last is None:
+        (product,), _ = problem.reduce((preconditioned * residual,))
+        values, slope = preconditioned, product
+    else:
+        before = np.where(active, last.values, 0.0)
+        (product, mixed, along), _ = problem.reduce(
+            (preconditioned * residual, preconditioned * last.residual, before * residual)
+        )
+        factor = max(0.0, (product - mixed) / last.product)
+        if product + factor * along <= 0:
+            factor = 0.0
+        values, slope = preconditioned + factor * before, product + factor * along
+    response = problem.convolution.displacement(values)
+    (curvature,), _ = problem.reduce((values * response,))
+    if not (curvature > 0 and slope > 0):
+        return _gradient_step(problem, iterate, deformed), None
+    length = slope / curvature
+    trial = pressure + length * values
+    bounded = np.clip(trial, 0.0, problem.cap)
+    (outside,), _ = problem.reduce(((trial != bounded).astype(np.float64),))
+    direction = Direction(values, residual, product)
+    if outside == 0:
+        return Iterate(trial, iterate.displacement + length * response), direction
+    del trial, response
+    projected = _along_segment(problem, iterate, deformed, bounded)
+    if projected is None:
+        return _gradient_step(problem, iterate, deformed), None
+    return projected, direction
+
+
+def _gradient_step(problem: SlabProblem, iterate: Iterate, deformed: FloatArray) -> Iterate:
+    """Return the projected gradient step, or the iterate itself where rounding leaves none."""
+    trial = iterate.pressure - deformed / problem.convolution.spectra.largest
+    projected = _along_segment(problem, iterate, deformed, np.clip(trial, 0.0, problem.cap), least=0.0)
+    return iterate if projected is None else projected
+
+
+def _along_segment(
+    problem: SlabProblem, iterate: Iterate, deformed: FloatArray, end: FloatArray, least: float = _LEAST_STEP
+) -> Iterate | None:
+    """Return the pressure of least energy between an iterate and another pressure; None if that is near the iterate."""
+    there = problem.convolution.displacement(end)
+    change, change_of_displacement = end - iterate.pressure, there - iterate.displacement
+    (slope, curvature), _ = problem.reduce((change * deformed, change * change_of_displacement))
+    if not (slope < 0 and curvature > 0) or -slope <= least * curvature:
+        return None
+    fraction = -slope / curvature
+    if fraction >= 1:
+        return Iterate(end, there)
+    return Iterate(iterate.pressure + fraction * change, iterate.displacement + fraction * change_of_displacement)

@@ -1,0 +1,83 @@
+"""Displacement of the own rows under a pressure of which every rank has its rows.
+
+Rows are transformed forward along y and transposed among ranks, columns go forward along x, through the spectrum and
+back, and are transposed back; rows are transformed back. Cost: two all-to-all exchanges of nx (py // 2 + 1) complex
+numbers in all. Fields are padded along free axes as in `bem.transforms`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+from bem.distributed.ranks import Ranks
+from bem.distributed.spectra import ColumnSpectra, column_spectra
+from bem.distributed.transpose import transposed, transposed_back
+from bem.grid import Grid
+from bem.materials import Body
+from bem.transforms import padded_shape
+
+FloatArray = NDArray[np.float64]
+
+_BLOCK = 1 << 17
+"""Complex numbers of a block of padded columns: 2 MiB, near the size of a core's cache."""
+
+
+@dataclass
+class Applications:
+    """Number of convolutions so far, preconditioning included."""
+
+    number: int = 0
+
+
+@dataclass(frozen=True)
+class SlabConvolution:
+    """Convolutions of the own rows (own rows, ny) of fields (nx, ny); all methods are collective.
+
+    grid, ranks, spectra : see `slab_convolution`. count : convolutions so far.
+    """
+
+    grid: Grid
+    ranks: Ranks
+    spectra: ColumnSpectra
+    count: Applications = field(default_factory=Applications, compare=False)
+
+    def displacement(self, pressure: FloatArray) -> FloatArray:
+        """Return the displacement [m] under a pressure [Pa]."""
+        return self._through(pressure, self.spectra.response)
+
+    def precondition(self, residual: FloatArray) -> FloatArray:
+        """Return an approximate pressure [Pa] for a displacement [m]."""
+        return self._through(residual, self.spectra.stiffness)
+
+    def _through(self, rows: FloatArray, spectrum: FloatArray) -> FloatArray:
+        self.count.number += 1
+        nx, ny = self.grid.shape
+        px, py = padded_shape(self.grid.shape, self.grid.periodic)
+        waves = scipy.fft.rfft(rows, n=py, axis=1)
+        width = waves.shape[1]
+        columns = transposed(waves, nx, self.ranks)
+        del waves
+        _multiply(columns, spectrum, px)
+        return scipy.fft.irfft(transposed_back(columns, width, self.ranks), n=py, axis=1)[:, :ny]
+
+
+def _multiply(columns: NDArray[Any], spectrum: FloatArray, length: int) -> None:
+    """Pass columns (nx, own columns) through an even spectrum (length // 2 + 1, own columns), in place."""
+    nx, own = columns.shape
+    half, block = length // 2 + 1, max(1, _BLOCK // length)
+    for first in range(0, own, block):
+        part = slice(first, min(first + block, own))
+        waves = scipy.fft.fft(columns[:, part], n=length, axis=0)
+        waves[:half] *= spectrum[:, part]
+        waves[half:] *= spectrum[(length - 1) // 2 : 0 : -1, part]
+        columns[:, part] = scipy.fft.ifft(waves, axis=0, overwrite_x=True)[:nx]
+
+
+def slab_convolution(grid: Grid, bodies: tuple[Body, ...], ranks: Ranks) -> SlabConvolution:
+    """Compute the spectra of own columns and return the convolution; collective."""
+    return SlabConvolution(grid, ranks, column_spectra(grid, bodies, ranks))

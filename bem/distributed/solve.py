@@ -1,0 +1,276 @@
+"""Solve one dry contact on several ranks: check, start from a coarse grid, iterate, and certify the result."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.arguments import is_finite, is_positive
+from bem.contact.grid_workspace import is_flat
+from bem.distributed.bounded_cg import ApproachSearch, SlabProblem, solve_bounded
+from bem.distributed.coarse_start import coarse_start
+from bem.distributed.convolution import SlabConvolution, slab_convolution
+from bem.distributed.ranks import Ranks, own_length, own_slice
+from bem.distributed.spectra import responds_evenly
+from bem.errors import InfeasibleError, InputError, Status
+from bem.grid import Grid
+from bem.materials import Body
+from bem.threads import one_blas_thread
+
+FloatArray = NDArray[np.float64]
+
+_TIGHTER = 0.9
+"""Fraction of the tolerance that the solver aims at, so that rounding cannot spoil the certificate."""
+
+
+@dataclass(frozen=True)
+class SlabSolution:
+    """Contact of all ranks, with the fields of the own rows.
+
+    Attributes
+    ----------
+    rows : own rows of the grid.
+    pressure, displacement, gap : (own rows, ny) [Pa], [m], [m], as in `bem.contact.ContactSolution`.
+    approach, load : [m], [N].
+    counted_area : of the cells with pressure [m^2]; first-order accurate.
+    maximum_pressure : of a cell [Pa].
+    mean_gap : mean of the open gap [m].
+    response_unit : power of two near the largest response of the bodies to a wave [m/Pa].
+    residual : largest violation of the contact conditions, recomputed from `pressure` and `approach`, over the standard
+        deviation of the undeformed gap (over the displacement where the gap is flat); or the relative error of the
+        load, if that is larger.
+    status : converged where the residual is at most the tolerance.
+    iterations, convolutions : of all ranks together, preconditioning included.
+    """
+
+    rows: slice
+    pressure: FloatArray
+    displacement: FloatArray
+    gap: FloatArray
+    approach: float
+    load: float
+    counted_area: float
+    maximum_pressure: float
+    mean_gap: float
+    response_unit: float
+    residual: float
+    status: Status
+    iterations: int
+    convolutions: int
+
+
+@one_blas_thread
+def solve_slabs(
+    gap: FloatArray,
+    grid: Grid,
+    bodies: Body | tuple[Body, Body],
+    ranks: Ranks,
+    *,
+    load: float | None = None,
+    approach: float | None = None,
+    hardness: float | None = None,
+    tolerance: float = 1e-8,
+    max_iterations: int = 5000,
+    callback: Callable[[int, float, float], object] | None = None,
+) -> SlabSolution:
+    """Solve for the pressure between two bodies, elastic or capped at a hardness; every rank calls it.
+
+    Parameters
+    ----------
+    gap : own rows of the undeformed gap [m]: rows `own_slice(nx, ranks)`, all ny columns.
+    grid : of all rows.
+    bodies : one Body (the other rigid), or (lower, upper); frictionless.
+    ranks : `OneRank()`, or `bem.distributed.mpi.world()`.
+    load, approach : exactly one of total load [N] and approach [m].
+    hardness : cap on the pressure [Pa]; None for purely elastic.
+    tolerance : bound on the residual, see `SlabSolution`.
+    max_iterations : limit of iterations.
+    callback : called with iterations, residual and the fraction of cells in contact, on all ranks.
+
+    Raises
+    ------
+    InputError : arguments out of range, fewer rows than ranks, a crystal that does not respond alike on both sides of
+        the x axis.
+    InfeasibleError : a load above hardness x area; on a doubly periodic grid without hardness, an approach beyond the
+        mean of the gap.
+    """
+    pair = (bodies,) if isinstance(bodies, Body) else tuple(bodies)
+    rows = own_slice(grid.shape[0], ranks)
+    _check(gap, grid, pair, ranks, load, approach, hardness, tolerance)
+    cap = math.inf if hardness is None else float(hardness)
+    least, mean, rms = _moments(gap, grid, ranks)
+    _refuse_infeasible(grid, load, approach, cap, mean, _TIGHTER * tolerance * rms)
+    convolution = slab_convolution(grid, pair, ranks)
+    problem = SlabProblem(convolution, gap - least, cap)
+    unit = 2.0 ** round(math.log2(convolution.spectra.largest)) if convolution.spectra.largest > 0 else 1.0
+    scale = 0.0 if load is None else load / grid.area * unit
+
+    def reference(displacement: float) -> float:
+        largest = max(displacement, scale)
+        return (largest if is_flat(rms, largest) else rms) or 1.0
+
+    force = None if load is None else load / grid.cell_area
+    iterations = 0
+    known = _known(problem, force, None if approach is None else approach - least, mean - least)
+    if known is None:
+        start, coarse_approach = coarse_start(gap, grid, pair, ranks, load=load, approach=approach, cap=cap)
+        most = mean - least if all(grid.periodic) and math.isinf(cap) else math.inf
+        begin = coarse_approach if approach is None else approach
+        search = ApproachSearch(begin - least, force, (0.0, most), 0.5 * rms or math.inf)
+        found = solve_bounded(
+            problem,
+            search,
+            start,
+            tolerance=_TIGHTER * tolerance,
+            reference=reference,
+            max_iterations=max_iterations,
+            callback=callback if ranks.rank == 0 else None,
+        )
+        pressure, above, iterations = found.iterate.pressure, found.approach, found.iterations
+        unmet = Status.STALLED if found.stalled else Status.MAX_ITERATIONS
+        del found
+    else:
+        (pressure, above), unmet = known, Status.STALLED
+    return _certified(
+        problem,
+        pressure,
+        above,
+        least=least,
+        load=load,
+        reference=reference,
+        tolerance=tolerance,
+        unmet=unmet,
+        rows=rows,
+        iterations=iterations,
+        unit=unit,
+    )
+
+
+def _check(
+    gap: FloatArray,
+    grid: Grid,
+    bodies: tuple[Body, ...],
+    ranks: Ranks,
+    load: float | None,
+    approach: float | None,
+    hardness: float | None,
+    tolerance: float,
+) -> None:
+    """Refuse arguments out of range. They are the same on all ranks; a mistake in one rank's gap is raised on all."""
+    messages = []
+    if ranks.size > grid.shape[0]:
+        messages.append(f"{ranks.size} ranks for {grid.shape[0]} rows along x; allowed: at most one rank for each row")
+    if not all(responds_evenly(body) for body in bodies):
+        messages.append("solve_slabs: a crystal must respond alike on both sides of the x axis; allowed: solve_contact")
+    if (load is None) == (approach is None):
+        messages.append("solve_slabs: give exactly one of load and approach")
+    if load is not None and not (is_finite(load) and load >= 0):
+        messages.append(f"solve_slabs: load {load!r} must be finite and not negative [N]")
+    if approach is not None and not is_finite(approach):
+        messages.append(f"solve_slabs: approach {approach!r} must be finite [m]")
+    if hardness is not None and not is_positive(hardness):
+        messages.append(f"solve_slabs: hardness {hardness!r} must be positive and finite [Pa], or None")
+    if not (is_finite(tolerance) and 0 < tolerance < 1):
+        messages.append(f"solve_slabs: tolerance {tolerance!r} must lie between 0 and 1")
+    if messages:
+        raise InputError(messages)
+    shape = (own_length(grid.shape[0], ranks, ranks.rank), grid.shape[1])
+    wrong = gap.shape != shape or gap.dtype != np.float64 or not np.isfinite(gap).all()
+    ranks_wrong = ranks.all_rows(np.full((1, 1), float(wrong)), ranks.size)
+    if ranks_wrong.any():
+        first = int(np.argmax(ranks_wrong))
+        raise InputError(
+            f"solve_slabs: gap of rank {first} must be finite floats of its rows of the grid's {grid.shape}: "
+            f"{own_length(grid.shape[0], ranks, first)} rows"
+        )
+
+
+def _moments(gap: FloatArray, grid: Grid, ranks: Ranks) -> tuple[float, float, float]:
+    """Return minimum, mean and standard deviation of the gap of all ranks [m]."""
+    everywhere = ranks.all_rows(np.stack([gap.min(axis=1), gap.sum(axis=1)], axis=1), grid.shape[0])
+    mean = float(everywhere[:, 1].sum()) / grid.cells
+    squares = ranks.all_rows(((gap - mean) ** 2).sum(axis=1)[:, None], grid.shape[0])
+    return float(everywhere[:, 0].min()), mean, math.sqrt(float(squares.sum()) / grid.cells)
+
+
+def _refuse_infeasible(
+    grid: Grid, load: float | None, approach: float | None, cap: float, mean: float, slack: float
+) -> None:
+    if load is not None and load > cap * grid.area * (1 + 1e-14):
+        raise InfeasibleError(
+            f"load {load!r} N is above hardness x area = {cap * grid.area!r} N; allowed: a lower load or a larger grid"
+        )
+    if approach is not None and all(grid.periodic) and math.isinf(cap) and approach > mean + slack:
+        raise InfeasibleError(
+            f"approach {approach!r} m is beyond the mean gap {mean!r} m; on a doubly periodic grid elastic bodies in "
+            "full contact cannot come closer"
+        )
+
+
+def _known(
+    problem: SlabProblem, force: float | None, approach: float | None, mean: float
+) -> tuple[FloatArray, float] | None:
+    """Return pressure and approach of contacts known in closed form, None for others.
+
+    Without pressure: no load, or an approach before first touch. Full contact of doubly periodic elastic bodies under a
+    load: the inverse of all waves, on the mean pressure.
+    """
+    gap, grid = problem.gap, problem.convolution.grid
+    if force == 0 or (approach is not None and approach <= 0):
+        return np.zeros_like(gap), 0.0 if approach is None else approach
+    if force is None or not all(grid.periodic):
+        return None
+    pressure = problem.convolution.precondition(mean - gap)  # the mean of its argument is zero
+    pressure += force / grid.cells
+    _, (highest, lowest) = problem.reduce(maxima=(pressure, -pressure))
+    return (pressure, mean) if lowest <= 0 and highest <= problem.cap else None
+
+
+def _certified(
+    problem: SlabProblem,
+    pressure: FloatArray,
+    approach: float,
+    *,
+    least: float,
+    load: float | None,
+    reference: Callable[[float], float],
+    tolerance: float,
+    unmet: Status,
+    rows: slice,
+    iterations: int,
+    unit: float,
+) -> SlabSolution:
+    """Recompute displacement, violation and load from the pressure and the approach above the gap's lowest value."""
+    convolution: SlabConvolution = problem.convolution
+    grid, cap = convolution.grid, problem.cap
+    displacement = convolution.displacement(pressure)
+    deformed = problem.gap + displacement - approach
+    touching = pressure > 0
+    violation = np.where(touching, np.where(pressure >= cap, deformed, np.abs(deformed)), -deformed)
+    opened = np.where(touching, 0.0, np.maximum(deformed, 0.0))
+    (force, loaded, volume), (largest, highest, displaced) = problem.reduce(
+        (pressure, touching.astype(np.float64), opened), (violation, pressure, np.abs(displacement))
+    )
+    found = force * grid.cell_area
+    load_error = 0.0 if load is None or found == load else abs(found - load) / load if load > 0 else math.inf
+    residual = max(max(largest, 0.0) / reference(displaced), load_error)
+    return SlabSolution(
+        rows=rows,
+        pressure=pressure,
+        displacement=displacement,
+        gap=np.where(touching, deformed, opened),
+        approach=approach + least,
+        load=found,
+        counted_area=loaded * grid.cell_area,
+        maximum_pressure=highest,
+        mean_gap=volume / grid.cells,
+        response_unit=unit,
+        residual=residual,
+        status=Status.CONVERGED if residual <= tolerance else unmet,
+        iterations=iterations,
+        convolutions=convolution.count.number,
+    )
