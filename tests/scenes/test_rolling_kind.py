@@ -97,6 +97,21 @@ def test_falling_friction_slides_with_less_the_faster_it_slides():
         assert abs(getattr(coarse, name) - getattr(finer, name)) < coarse.errors[name]
 
 
+@pytest.mark.parametrize(("creepage", "seen"), [(3.6e-3, True), (4.0e-3, False)])
+def test_bars_cover_a_sticking_area_that_vanishes(creepage, seen):
+    """A strip along the leading edge that is shorter than a cell is not seen; a longer one errs by part of a cell."""
+    steel = {"material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}}
+    roll = {"friction": FALLING, "speed": "4 m/s", "creepage": creepage}
+    coarse, fine = (
+        run(roll, grid={"shape": n, "lengths": "400 um"}, lower=steel, upper=steel, outputs={"errors": n < 100})[0]
+        for n in (40, 120)
+    )
+    assert (coarse.stick_fraction > 0) == seen
+    missed = fine.stick_fraction - coarse.stick_fraction
+    assert missed > 0.01
+    assert missed < coarse.errors["stick_fraction"] < 4 * missed
+
+
 def test_a_share_of_a_shear_strength_is_one_of_strength_times_area():
     record, _ = run({"friction": {"kind": "tresca", "shear_limit": "50 MPa"}, "share": 0.5})
     area = record.contact_area_fraction * (300e-6) ** 2
