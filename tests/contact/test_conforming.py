@@ -176,6 +176,12 @@ def test_the_deformed_surfaces_close_the_gap(wall):
     assert np.all(gap > 0.01 * CLEARANCE)
 
 
+def test_curvatures_of_shaft_and_bore_subtract_to_that_of_the_equivalent_cylinder():
+    bodies = ConformingBodies(STEEL, PEEK, RADIUS, 0.05 * RADIUS)
+    exact = 1 / (1 / (0.95 * RADIUS) - 1 / RADIUS)
+    assert bodies.equivalent_radius == pytest.approx(exact, rel=1e-12, abs=0)
+
+
 def test_the_equivalent_cylinder_is_that_of_hertz():
     bodies = POLYMER.cylinder
     hertz = cylinder_contact(radius=POLYMER.equivalent_radius, contact_modulus=bodies.modulus, load=8e3)

@@ -93,6 +93,38 @@ def test_waves_have_their_closed_form():
         assert points < 0.92 * exact
 
 
+@pytest.mark.parametrize(("cells", "dy"), [((64, 64), 1.0), ((64, 80), 1.0), ((64, 96), 0.6), ((96, 64), 1.0)])
+def test_waves_askew_to_the_traction_have_their_closed_form(cells, dy):
+    """As above, with the traction at 39 to 56 degrees from the wavevector: its part along the edge shears the surface
+    by half of what its part across the edge strains it. Along the edge there is no strain."""
+    grid, height, friction = Grid(cells, (1.0, dy), periodic=(True, True)), 1e-3, 0.3
+    kx, ky = (2 * math.pi / length for length in grid.lengths)
+    k = math.hypot(kx, ky)
+    cosine, sine = kx / k, ky / k
+    for half in (9.8, 10.3):
+        mean = 0.5 * MODULUS * height * k * math.sin(0.5 * k * half) ** 2
+        gap = height * (1 - np.cos(kx * grid.x[:, None] + ky * grid.y))
+        edge, points = tensions(gap, grid, mean * grid.area, friction)
+        rubbed = friction * MODULUS * k * height * math.sin(k * half)
+        across = rubbed * cosine + (1 - NU / (1 - NU)) * mean
+        along = NU * rubbed * cosine + (2 * NU - NU / (1 - NU)) * mean
+        exact = 0.5 * (across + along) + math.hypot(0.5 * (across - along), 0.5 * rubbed * sine)
+        assert edge == pytest.approx(exact, rel=0.035)
+        assert points < 0.92 * exact
+
+
+def test_an_edge_at_the_end_of_a_free_grid_is_left_out():
+    """Beyond it no stress is known: a cylinder whose trailing edge is that of its grid."""
+    grid, body, friction = Grid((30, 1), (1.0, 1.0), periodic=(False, True)), COATED_WITH_ITSELF, 0.3
+    pressure = np.sqrt(np.clip(1 - ((grid.x[:, None] + 2.0) / 9.0) ** 2, 0, None)) * 1e9
+    whole = edge_tension(surface_of(pressure, grid, body, friction), pressure, grid, body, friction)
+    assert whole.tension == pytest.approx(2 * friction * 1e9, rel=0.03)
+    cut = pressure[np.flatnonzero(pressure)[0] :]
+    grid = Grid(cut.shape, (1.0, 1.0), periodic=(False, True))
+    left = edge_tension(surface_of(cut, grid, body, friction), cut, grid, body, friction)
+    assert left.tension < 0.1 * whole.tension  # of the leading edge, which is compressed
+
+
 @pytest.mark.parametrize(
     "case", ["disc-hertz-soft", "disc-hertz-soft-thick", "disc-hertz-stiff-on-soft", "disc-hertz-low-nu-stiff-on-soft"]
 )

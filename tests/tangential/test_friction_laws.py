@@ -141,6 +141,7 @@ def test_carter_s_cylinder_with_falling_friction(law):
     for creepage, force in points:
         solved = solve_rolling(pressure, grid, (STEEL, STEEL), friction=law, speed=speed, creepage=(creepage, 0.0))
         assert solved.status == "converged"
+        assert solved.iterations <= 12  # of Newton's method: 3 to 11
         assert not has_code(solved.notes, FRICTION_NOT_UNIQUE)
         forces.append(solved.force[0] / total)
         assert forces[-1] == pytest.approx(force, rel=5e-4)
@@ -150,7 +151,7 @@ def test_carter_s_cylinder_with_falling_friction(law):
 
 def test_falling_friction_holds_by_the_slip_of_the_result():
     """Bound formed here from the slip over a cell; with spin, where directions turn."""
-    grid = Grid((24, 24), (1e-4, 1e-4))
+    grid = Grid((24, 20), (1e-4, 1.2e-4))
     x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
     pressure = 1e9 * np.sqrt(np.maximum(1 - (x[:, None] ** 2 + y**2) / 1e-6, 0))
     law = ExponentiallyFallingFriction(0.4, 0.2, 0.05)
