@@ -321,8 +321,10 @@ def worn_region(scene: Any, strip: FloatArray) -> tuple[int, FloatArray]:
 def particle_rates(scene: Any, result: RunningIn, grid: Grid, number: FloatArray) -> dict[str, float | None]:
     """Return particles per sliding distance [1/m] and per volume worn from their body [1/m^3] in the settled cycles.
 
-    number : particles of each cycle. None without sliding or without particles.
+    number : particles of each cycle. None without sliding, without particles, and of a law that knows none.
     """
+    if scene.wear.finds_particles.wears_by_pressure:
+        return {"particles_per_distance": None, "particles_per_volume": None}
     last = scene.cycles.settled
     distance = scene.wear.criterion.distance_per_cycle(abs(scene.wear.shift) * grid.spacing[0])
     settled, count = result.cycles[-last:], float(number[-last:].sum())
