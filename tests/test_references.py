@@ -46,9 +46,20 @@ def test_every_key_that_is_cited_has_an_entry():
         )
         for key in table
     }
-    keys |= {*cited._ROUGH_CONTACT, *cited._AREA_THEORIES}
+    keys |= {*cited._ROUGH_CONTACT, *cited._AREA_THEORIES, *cited._ADHESIVE, *cited._ADHESIVE_SPHERE}
+    keys |= {*cited._RELAXING_IN_TIME, *cited._RELAXING_IN_MOTION, *cited._FROM_REST}
     assert keys <= set(references())
     assert all(sources_of_kind(kind) for kind in kind_names())
+
+
+def test_contacts_cite_what_adheres_relaxes_and_rolls():
+    assert {"johnson1971", "derjaguin1975", "tabor1977", "maugis1992"} <= set(sources("adhesive-sphere"))
+    assert "johnson1971" not in sources("contact-challenge")
+    assert "hunter1961" in sources("sliding-hysteresis")
+    assert "ting1966" in sources("viscoelastic-ball")
+    assert not {"hunter1961", "ting1966", "maugis1992"} & set(sources("hertz-sphere"))
+    assert "kalker1971" in sources("rolling-from-rest")
+    assert "kalker1971" not in sources("rolling-creepage")
 
 
 def test_scenes_cite_the_laws_and_methods_that_they_use():

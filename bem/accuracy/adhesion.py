@@ -5,7 +5,7 @@ Verified in tests/adhesion/test_adhesive_bars.py against Maugis' spheres and fin
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars
 from bem.accuracy.coarsened import ContactCase, coarser_problem, edge_fraction, regime_of
@@ -44,11 +44,13 @@ def adhesive_bars(
     path: AdhesiveHistory,
     asked: Mapping[str, list[float]],
     tolerance: float = 1e-6,
+    after: Callable[[int], object] | None = None,
 ) -> ErrorBars:
     """Return the error bars of an adhesive contact.
 
     case : of the last contact. path : as solved. asked : loads or approaches of the path.
     tolerance : with which the path was solved.
+    after : called after each step of the coarser path with the number of steps that are done.
     """
     problem = coarser_problem(case)
     if problem is None:
@@ -63,6 +65,7 @@ def adhesive_bars(
             approaches=asked.get("approaches"),
             hardness=case.hardness,
             tolerance=tolerance,
+            callback=None if after is None else lambda number, _: after(number + 1),
         )
     except InfeasibleError:
         return ErrorBars.unknown(RULES, NoBar.IMPOSSIBLE)

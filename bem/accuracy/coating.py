@@ -35,6 +35,7 @@ from bem.stress import (
 )
 
 ACROSS, INSIDE = ("interface_max_shear", "interface_max_tension"), ("layer_max_von_mises", "layer_max_tension")
+SUBSTRATE = "substrate_max_von_mises"
 NAMES = (*ACROSS, *INSIDE)
 RULES = Table(
     "coating_error_bars",
@@ -129,7 +130,7 @@ def coating_bars(
     """
     assert below.stress is not None
     if coarser.solution is None or coarser.grid is None:
-        return ErrorBars(dict.fromkeys(NAMES))
+        return ErrorBars(dict.fromkeys((*NAMES, SUBSTRATE)))
     own = coating_maxima(below.stress, below.von_mises, below.depths, case.solution.pressure, case.grid, body, friction)
     maxima = own.highest
     there = subsurface_stress(coarser.solution.pressure, coarser.grid, body, maxima.depths, friction=friction)
@@ -147,9 +148,71 @@ def coating_bars(
         values = getattr(maxima, _FIELDS[name])
         grid[name] = np.array([_of_highest(values[own], at_depths[name][own]) for own in _layers(maxima.depths, body)])
     bars = ErrorBars.together({GRID: grid, DEPTHS: _between_depths(maxima, body)})
-    lost = [name for name in NAMES if reason is not None and np.isnan(grid[name]).any()]
+    bars |= _substrate_bars(case, coarser, body, below, friction)
+    lost = [name for name in (*NAMES, SUBSTRATE) if reason is not None and np.isnan(bars.values.get(name, 0.0)).any()]
     notes = () if reason is None or not lost else (no_error_bar(lost, reason),)
     return ErrorBars(bars.values, notes, bars.parts)
+
+
+def _substrate_bars(
+    case: ContactCase, coarser: Coarser, body: Body, below: StressSummary, friction: float
+) -> ErrorBars:
+    """Return the error bar of the highest von Mises stress below the layers, by the rule of that in layers; none
+    without a depth there."""
+    name, beneath = "layer_max_von_mises", np.flatnonzero(below.depths > body.interfaces[-1])
+    if not beneath.size or coarser.solution is None or coarser.grid is None:
+        return ErrorBars()
+    depths, values = below.depths[beneath], below.highest[beneath]
+    k = int(np.argmax(values))
+    plane, value, depth = below.von_mises[beneath[k]], float(values[k]), float(depths[k])
+    there = subsurface_stress(coarser.solution.pressure, coarser.grid, body, np.array([depth]), friction=friction)
+    near, edge = depth < math.sqrt(case.grid.cell_area), edge_fraction(case) * value
+    indicators = {"edge": {name: edge}, "surface": {name: edge if near else 0.0}}
+    indicators["peak"] = {name: peak_rise(plane, case.grid)}
+    coarse = {name: float(von_mises(there).max())}
+    errors = RULES.errors({name: value}, coarse, indicators, regime=regime_of(case))
+    error = math.nan if near and _no_limit(case) is not None else float(errors[name])
+    rise = _rise_in_layer(depths, values, (body.interfaces[-1], float(depths[-1])))
+    return ErrorBars.together({GRID: {SUBSTRATE: error}, DEPTHS: {SUBSTRATE: rise}})
+
+
+def with_one_estimate(bars: ErrorBars, below: StressSummary, body: Body) -> ErrorBars:
+    """Return the bars with one error for the highest von Mises stress of all and for that of its layer, or of the body
+    below: the larger of both, as they are the same stress."""
+    medium, layers = body.medium_at(float(below.depths[np.argmax(below.highest)])), len(body.layers)
+    name = SUBSTRATE if medium == layers else "layer_max_von_mises"
+    own, whole = bars.values.get(name), bars.values.get("max_von_mises")
+    if own is None or whole is None:
+        return bars
+    larger = _entry(own, medium, layers) < float(whole)
+    parts = {}
+    for origin, part in bars.parts.items():
+        changed = dict(part)
+        if larger:
+            changed[name] = _with_entry(part.get(name, own * 0.0), medium, layers, part.get("max_von_mises", 0.0))
+        else:
+            changed["max_von_mises"] = _entry(part.get(name, own * 0.0), medium, layers)
+        parts[origin] = changed
+    values = dict(bars.values)
+    if larger:
+        values[name] = _with_entry(own, medium, layers, whole)
+    else:
+        values["max_von_mises"] = _entry(own, medium, layers)
+    return ErrorBars(values, bars.notes, parts)
+
+
+def _entry(errors: Any, medium: int, layers: int) -> float:
+    """Return the error of a medium: of the body below a number, of layers an entry of an array."""
+    return float(errors if medium == layers else errors[medium])
+
+
+def _with_entry(errors: Any, medium: int, layers: int, error: Any) -> Any:
+    """Return the errors with that of a medium replaced; see `_entry`."""
+    if medium == layers:
+        return float(error)
+    changed = np.array(errors, dtype=np.float64)
+    changed[medium] = error
+    return changed
 
 
 def _errors_at_depths(

@@ -70,6 +70,18 @@ _PROFILES = {
     "vollebregt2022": "wheel and rail on a tangent plane",
     "kalker1990": "spin of the contact angle",
 }
+_ADHESIVE = {"maugis1992": "width of the adhesive zone", "anderson1965": "extrapolation of the attraction"}
+_ADHESIVE_SPHERE = {
+    "johnson1971": "pull-off force of soft spheres (JKR)",
+    "derjaguin1975": "pull-off force of stiff spheres (DMT)",
+    "tabor1977": "Tabor's parameter",
+}
+_RELAXING_IN_TIME = {"lee1960": "contact of viscoelastic bodies", "ting1966": "viscoelastic contact that shrinks"}
+_RELAXING_IN_MOTION = {
+    "hunter1961": "steady motion of viscoelastic bodies",
+    "rockafellar1976": "steady motion where the retarded part is large",
+}
+_FROM_REST = {"kalker1971": "transient rolling"}
 _LAYERED = {"burmister1945": "layered bodies", "osullivan1988": "stresses of layered bodies"}
 
 
@@ -98,6 +110,7 @@ def _all_sources(scene: SceneModel) -> Iterator[tuple[str, str]]:
     yield from _heat_and_film(scene)
     if _finds_stresses(scene):
         yield from _STRESSES.items()
+    yield from _of_contact(scene)
     if any(str(model).startswith("uncoupled") for model in _models(scene)):
         yield from _UNCOUPLED.items()
     if getattr(getattr(scene, "sharing", None), "flow_factors", "off") != "off":
@@ -158,6 +171,23 @@ def _finds_stresses(scene: SceneModel) -> bool:
     wear, particles = getattr(scene, "wear", None), getattr(scene, "particles", None)
     laws = (getattr(wear, "finds_particles", None), getattr(particles, "criterion", None))
     return any(isinstance(law, StressCriterion) for law in laws) or getattr(scene, "fatigue", None) is not None
+
+
+def _of_contact(scene: Any) -> Iterator[tuple[str, str]]:
+    """Yield the sources of adhesion, of bodies that relax, and of rolling from rest."""
+    kind, contact = getattr(scene, "kind", ""), getattr(scene, "contact", None)
+    if kind == "rolling" and scene.history is not None:
+        yield from _FROM_REST.items()
+    if kind != "contact" or contact is None:
+        return
+    if contact.adhesion is not None:
+        yield from _ADHESIVE.items()
+        if scene.shape.kind == "sphere":
+            yield from _ADHESIVE_SPHERE.items()
+    if scene.speeds is not None:
+        yield from _RELAXING_IN_MOTION.items()
+    elif contact.times:
+        yield from _RELAXING_IN_TIME.items()
 
 
 def catalogue_sources(scene: SceneModel) -> dict[str, str]:

@@ -19,16 +19,18 @@ from bem.notes import OUTSIDE, Level, Note, as_note, of_summary
 from bem.notes.merge import identity
 
 _FIRST_SHOWN_AFTER = 1.0  # seconds; shorter work needs no bar
+_LINE_EVERY = 30.0  # seconds between lines of progress where there is no terminal
 
 
 class Terminal:
-    """Shows progress on the terminal while in its `with` block; silent when the error stream is not one."""
+    """Shows progress while in its `with` block: a bar on a terminal, else a line every half minute."""
 
     def __init__(self) -> None:
         self._live = sys.stderr.isatty()
         self._bars: Any = None
         self._tasks: dict[str, Any] = {}
         self._started: dict[str, float] = {}
+        self._line_at = time.monotonic()
         self._noted: set[Hashable] = set()
         self._held: list[Note] = []
         self.printed = False
@@ -46,9 +48,12 @@ class Terminal:
 
     def progress(self, done: int, total: int, what: str, figures: Mapping[str, float]) -> None:
         """See `bem.runs.Watcher`."""
-        if not self._live:
-            return
         now = time.monotonic()
+        if not self._live:
+            if done > 0 and now - self._line_at >= _LINE_EVERY:
+                self._line_at = now
+                self.say(f"{what or 'working'}: {done} of {total}")
+            return
         started = self._started.setdefault(what, now)
         if self._bars is None:
             if now - started < _FIRST_SHOWN_AFTER:

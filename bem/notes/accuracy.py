@@ -114,6 +114,13 @@ NO_ERROR_BAR = define(
         NoBar.OF_KIND: "{why}.",
     },
 )
+ERROR_BARS_LOST = define(
+    "error-bars-lost",
+    CAUTION,
+    "No figure of this result has an error bar.",
+    "The solution on the grid of twice the cell, with which it is compared, did not converge.",
+    "Take cells of half the size, so that the coarser grid has the cells of this one.",
+)
 BARS_PARTIAL = define(
     "error-bars-partial",
     INFO,

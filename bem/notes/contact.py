@@ -112,13 +112,31 @@ CONTACT_UNRESOLVED = define(
         ),
     },
 )
+_ZONE = "At the edge of a contact it is {zone:si m} wide, for cells of {cell:si m}:"
 ADHESIVE_ZONE_UNRESOLVED = define(
     "adhesive-zone-unresolved",
     OUTSIDE_MODEL,
     "The cells do not resolve the zone in which adhesion acts.",
-    "At the edge of a contact it is {zone:si m} wide, for cells of {cell:si m}: the grid holds the edge back, and"
-    " adhesion and its hysteresis are wrong.",
-    "Set spacing to {wanted:si m} or less, or give a longer range at the same work.",
+    "",
+    "Set grid.shape to {cells} cells or more at these lengths (spacing {wanted:si m} or less), or"
+    " contact.adhesion.range to {longer:si m} or more at the same work.",
+    reasons={
+        "foreseen": Reason(
+            f"{_ZONE} the grid will hold the edge back, adhesion and its hysteresis will be wrong, and the run will"
+            " take long.",
+            level=CAUTION,
+            foreseen=True,
+        ),
+        "solved": Reason(f"{_ZONE} the grid holds the edge back, and adhesion and its hysteresis are wrong."),
+    },
+)
+ADHESION_ENDS_APART = define(
+    "adhesion-ends-apart",
+    CAUTION,
+    "The bodies have parted at the end of the path.",
+    "Load, area, pressures and approach are those of the parted end; on the path the contact was up to {area:.3g} m^2"
+    " large and the lowest load {lowest:si N}.",
+    "Read the lowest load and the figure of the path, or end the path in contact.",
 )
 ADHESION_JUMPS = define(
     "adhesion-jumps",

@@ -22,6 +22,7 @@ from bem.plots.tables import (
     is_counted,
     is_error,
     is_list,
+    is_rounding,
     is_second_name,
     is_size_of_no_particles,
     name_and_unit,
@@ -116,12 +117,22 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
         return text, "-"
     if name == "max_pressure_Pa" and _reaches_hardness(summary):
         return text, f"{shown} (the hardness)"
-    if not isinstance(error, float) or not isinstance(value, int | float) or isinstance(value, bool) or value == 0:
+    if not isinstance(error, float) or not isinstance(value, int | float) or isinstance(value, bool):
         none = f"{name}_error" in summary and error is None and value is not None
         return text, f"{shown} (no error bar)" if none else shown
+    if error > abs(value):
+        return text, _in_unit_of_error(name, value, error)
     number, *unit = shown.split(" ")
     factor = float(number) / value if float(number) else 1.0
     return text, " ".join(filter(None, [number, within(name, value, error, factor), *unit]))
+
+
+def _in_unit_of_error(name: str, value: float, error: float) -> str:
+    """Return a figure that its error exceeds: in the unit of the error, and zero where it is zero but for rounding."""
+    text, unit = name_and_unit(name)
+    factor, unit = (100.0, "%") if text.endswith(" fraction") else prefix([value, error], unit)
+    number = "0" if is_rounding(value, error) else f"{value * factor:.4g}"
+    return " ".join(filter(None, [number, within(name, value, error, factor), unit]))
 
 
 def _reaches_hardness(summary: Mapping[str, Any]) -> bool:

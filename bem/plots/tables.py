@@ -55,6 +55,9 @@ def reported_mean(name: str, summary: Mapping[str, Any]) -> str:
 
 
 _LABELS = {
+    "lowest_load": "pull-off force (lowest load)",
+    "jkr_lowest_load": "pull-off force by JKR (soft spheres)",
+    "dmt_lowest_load": "pull-off force by DMT (stiff spheres)",
     "Sq": "Sq of both surfaces",
     "Sq_initial": "Sq of the contact region, initial",
     "Sq_final": "Sq of the contact region, final",
@@ -128,8 +131,15 @@ _WITHOUT_SIGN = frozenset(
         "sq",
         "count",
         "particles",
+        "tension",
+        "mises",
+        "power",
     )
 )
+_SIGNED = frozenset(("xy", "lowest"))
+"""Words of figures that may be negative although another of their words has no sign: flow across what drives it, the
+lowest load of an adhesive path."""
+_LARGEST = frozenset(("max", "maximum"))
 
 
 def within(name: str, value: float, error: float, factor: float = 1.0) -> str:
@@ -140,12 +150,11 @@ def within(name: str, value: float, error: float, factor: float = 1.0) -> str:
 
     factor : of the unit that is shown.
     """
-    if error < _LEAST_ERROR * abs(value):
+    if error <= _LEAST_ERROR * abs(value):
         return ""
     words = name_and_unit(name)[0].lower().split(" ")
     is_share = any(word in _SHARES for word in words)
-    signed = "xy" in words  # flow across what drives it
-    least = 0.0 if value >= 0 and not signed and (is_share or not _WITHOUT_SIGN.isdisjoint(words)) else -np.inf
+    least = 0.0 if value >= 0 and (is_share or _is_without_sign(words)) else -np.inf
     most = 1.0 if value <= 1 and is_share else np.inf
     if least <= value - error and value + error <= most:
         return f"± {plain_digits(error * abs(factor))}"
@@ -157,6 +166,19 @@ def within(name: str, value: float, error: float, factor: float = 1.0) -> str:
     return ""
 
 
+def _is_without_sign(words: Sequence[str]) -> bool:
+    """Return True for a figure of these words that cannot be negative."""
+    largest_shear = "shear" in words and not _LARGEST.isdisjoint(words)
+    return _SIGNED.isdisjoint(words) and (largest_shear or not _WITHOUT_SIGN.isdisjoint(words))
+
+
+def is_rounding(value: float, error: float) -> bool:
+    """Return True for a value that is zero but for rounding: far below its error."""
+    return abs(value) < _ROUNDING * error
+
+
+_ROUNDING = 1e-3
+"""Value over its error below which it is shown as zero: the error has two digits."""
 _LEAST_ERROR = 1e-6
 """Error over the value below which it is left out: values show four digits, and a given load is met to the residual."""
 _LEAST_SCATTER = 1e-6
@@ -437,7 +459,8 @@ def _column(
         cells = [
             cell
             if cell == "–" or not s or s < _ROUND_OFF * abs(value)
-            else f"{cell} {within(name, value, s, factor) if bars else f'± {plain_digits(s * factor)}'}".rstrip()
+            else f"{'0' if bars and is_rounding(value, s) else cell} "
+            f"{within(name, value, s, factor) if bars else f'± {plain_digits(s * factor)}'}".rstrip()
             for cell, s, value in zip(cells, spread, values, strict=True)
         ]
     each = {k: v for k, v in (scatters or {}).items() if isinstance(v, list) and len(v) == len(values)}

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from bem.errors import Status
 from bem.notes import Note, as_note
-from bem.notes.accuracy import one_note_per_cause
+from bem.notes.accuracy import ERROR_BARS_LOST, NO_ERROR_BAR, NoBar, one_note_per_cause
 from bem.notes.merge import merge
 from bem.numerics.blocks import row_blocks
 from bem.plausibility import without_argument_notes
@@ -208,8 +208,16 @@ def error_bars(context: Context, wanted: bool, bars: Callable[[], Bars]) -> dict
         return {}
     with context.timer("error bars"):
         found = bars()
-    tell(context, one_note_per_cause(found.notes))
+    tell(context, one_note_per_cause(_with_loss(found)))
     return {"errors": dict(found.values), "error_parts": dict(found.parts)}
+
+
+def _with_loss(bars: Bars) -> tuple[Note, ...]:
+    """Return the notes on bars; where an unsolved coarser grid lost all of them, the caution that says so instead."""
+    unsolved = [n for n in bars.notes if n.code == NO_ERROR_BAR.code and n.values["reason"] == NoBar.COARSER_UNSOLVED]
+    if not unsolved or any(value is not None for value in bars.values.values()):
+        return bars.notes
+    return (ERROR_BARS_LOST(), *(note for note in bars.notes if note not in unsolved))
 
 
 def release(values: NDArray[Any]) -> None:

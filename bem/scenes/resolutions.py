@@ -315,7 +315,7 @@ def _depths_shown(scene: Any) -> str:
 
 
 _IN_LAYERS = ("interface_max_shear", "interface_max_tension", "layer_max_von_mises", "layer_max_tension")
-_STRESSES = ("max_von_mises", "max_von_mises_depth", *_IN_LAYERS)
+_STRESSES = ("max_von_mises", "max_von_mises_depth", "substrate_max_von_mises", *_IN_LAYERS)
 DEPTHS = Resolution("depths", _first_depths, _finer_depths, _depths_shown, _STRESSES, BELOW)
 """Depths below a contact where stresses are wanted."""
 

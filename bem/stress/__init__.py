@@ -37,6 +37,7 @@ from bem.stress.coating_maxima import CoatingMaxima, coating_maxima
 from bem.stress.connected_regions import ConnectedStress, clear_other_rows, connected_stress
 from bem.stress.edge_tension import EdgeTension, edge_tension
 from bem.stress.fields import subsurface_stress, von_mises, von_mises_field, von_mises_planes
+from bem.stress.layer_places import LayerPlaces, layer_places
 from bem.stress.layer_stresses import (
     DepthMaxima,
     LayerStresses,
@@ -56,6 +57,7 @@ __all__ = [
     "ConnectedStress",
     "DepthMaxima",
     "EdgeTension",
+    "LayerPlaces",
     "LayerStresses",
     "StressSummary",
     "clear_other_rows",
@@ -64,6 +66,7 @@ __all__ = [
     "depth_maxima",
     "edge_tension",
     "highest_principal",
+    "layer_places",
     "layer_stresses",
     "set_stress_memory",
     "stress_memory",

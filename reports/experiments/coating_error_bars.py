@@ -93,7 +93,7 @@ def solve(drawn: Coated) -> Comparison | None:
     _, truth = coated.stresses(fine, FINER)
     bars = coating_bars(case, coarser, coated.problem.body, below, coated.friction)
     told = ({name: getattr(one, name) for name in NAMES} for one in (found, truth))
-    return Comparison(*told, {name: _known(bar) for name, bar in bars.values.items()}, bars.parts)
+    return Comparison(*told, {name: _known(bars.values[name]) for name in NAMES}, bars.parts)
 
 
 def _known(bars: FloatArray) -> list[float | None]:

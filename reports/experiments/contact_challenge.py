@@ -27,10 +27,10 @@ from typing import Any
 
 from bem import Body, Grid, Material, displacement_operator, generate_surface, solve_contact
 from bem.adhesion import ExponentialAdhesion, solve_adhesive_contact
+from bem.adhesion.zone import FEWEST_CELLS, adhesive_zone
 from bem.benchmarks.measure import held_memory
 from bem.contact.regions import count_spots
 from bem.grid import FloatArray
-from bem.kinds.contact.adhesive import FEWEST_CELLS, adhesive_zone
 from bem.surfaces.describe import rms_slope, rms_slopes
 from bem.threads import set_threads
 from reports.experiments.kept import found, keep, result_of

@@ -3,12 +3,14 @@
 `reports/experiments/coating_error_bars.py` has 60 of them and the verdict for each figure.
 """
 
+import dataclasses
+
 import numpy as np
 from error_bar_ratios import ratios_of
 
 from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
-from bem.accuracy import ContactCase, coating_bars, solve_coarser
-from bem.accuracy.coating import NAMES
+from bem.accuracy import ContactCase, ErrorBars, coating_bars, solve_coarser
+from bem.accuracy.coating import NAMES, with_one_estimate
 from bem.stress import depth_maxima, layer_stresses, summarise_stress, with_layer_depths
 from reports.experiments.coating_error_bars import EXPERIMENT, draw
 
@@ -63,6 +65,30 @@ def test_a_balls_stresses_between_depths_are_covered_also_without_depths_at_the_
             left, whole = bars.parts["depths"][name], np.abs(getattr(truth, name)).max()
             assert (missed <= left + 0.01 * whole).all(), (name, missed, left)
             assert (left < most * whole).all(), (name, left)
+
+
+def test_the_bar_of_the_stress_below_the_layers_covers_finer_cells_and_depths():
+    case, fine = ball(32), ball(128)
+    below, _ = stresses(case, with_layer_depths(tuple(np.linspace(0, 20e-6, 9)), BODY, 4), 0.2)
+    truth, _ = stresses(fine, np.linspace(5.001e-6, 12e-6, 15), 0.2)
+    highest = below.highest[below.depths > 5e-6].max()
+    bars = coating_bars(case, solve_coarser(case), BODY, below, 0.2)
+    error = bars.values["substrate_max_von_mises"]
+    assert abs(highest - truth.highest.max()) <= error < 0.2 * highest
+
+
+def test_the_highest_stress_and_that_of_its_layer_have_one_error():
+    case = ball(32)
+    below, _ = stresses(case, with_layer_depths(tuple(np.linspace(0, 20e-6, 9)), BODY, 4))
+    for medium in (0, 1, 2):
+        place = int(np.flatnonzero([BODY.medium_at(depth) == medium for depth in below.depths])[0])
+        highest = np.where(np.arange(len(below.depths)) == place, 1.0, 0.0)
+        own = dataclasses.replace(below, highest=highest)
+        for whole, layers, substrate in ((3.0, [1.0, 2.0], 2.5), (0.5, [1.0, 2.0], 2.5)):
+            values = {"max_von_mises": whole, "layer_max_von_mises": np.array(layers)}
+            bars = with_one_estimate(ErrorBars(values | {"substrate_max_von_mises": substrate}), own, BODY)
+            each = [*bars.values["layer_max_von_mises"], bars.values["substrate_max_von_mises"]]
+            assert bars.values["max_von_mises"] == each[medium] == max(whole, [*layers, substrate][medium])
 
 
 def test_layers_without_depths_and_limits_have_no_bar():

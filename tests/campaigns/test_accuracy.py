@@ -248,7 +248,7 @@ def test_the_plan_tells_the_levels_that_are_expected():
     [
         (["accuracy=0"], 'accuracy = 0: 0 is not between 1e-05 and 0.5; allowed: "1 %"'),
         (["accuracy=fine"], "fine is not a number"),
-        (["accuracy.area=1%"], "accuracy.area: no figure of kind contact; allowed: all, load, contact_area_fraction"),
+        (["accuracy.area=1%"], "accuracy.area: no figure of kind contact; allowed: all, lowest_load, load"),
         (["accuracy.contact_spots=1%"], "accuracy.contact_spots: it has no error bar: none is made of counts"),
         (["accuracy.approach=2"], "approach = 2 is not between"),
         (["outputs.errors=false"], "accuracy: outputs.errors is false"),

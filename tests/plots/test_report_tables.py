@@ -84,6 +84,32 @@ def test_a_force_that_is_zero_but_for_rounding_has_the_unit_of_its_error():
     assert "± 1.2" in shown
 
 
+def test_a_figure_below_its_error_is_told_as_on_the_terminal_and_in_tables():
+    """A value that is zero but for rounding has its error in readable units; what has no sign begins at zero."""
+    shown = dict(
+        with_error(name, {name: value, f"{name}_error": error})
+        for name, value, error in (
+            ("force_across_N", -3.8e-8, 0.13),
+            ("interface_max_tension_Pa", 0.3625e6, 6.3e6),
+            ("layer_max_tension_Pa", 0.0, 850e3),
+            ("lowest_load_N", 1e-6, 3e-6),
+            ("plastic_area_fraction", 0.0, 0.02),
+            ("energy_J", 0.0, 0.0),
+        )
+    )
+    assert shown == {
+        "force across": "0 ± 130 mN",
+        "interface max tension": "0.3625 (0 to 6.66) MPa",
+        "layer max tension": "0 (0 to 850) kPa",
+        "pull-off force (lowest load)": "1 ± 3 µN",
+        "plastic area fraction": "0 (0 to 2) %",
+        "energy": "0 J",
+    }
+    swept = {"load_N": [1.0, 2.0], "force_N": [-4.7e-8, 2.0], "force_N_error": [0.71, 0.1]}
+    (table,) = figure_tables(swept, list(swept))
+    assert [row[1] for row in table.rows] == ["0 ± 0.71", "2 ± 0.1"]
+
+
 def test_units_of_names_are_those_of_records():
     assert name_and_unit("film_wear_rate_nm_s") == ("film wear rate", "nm/s")
     assert name_and_unit("wear_volume_mm3") == ("wear volume", "mm³")

@@ -157,6 +157,10 @@ CASES = {
         (with_(BALL, grid__lengths="100 um"), "for a Hertz contact of 216 um"),
         with_(BALL, grid__lengths="240 um"),
     ),
+    "adhesive_zone_of_few_cells": (
+        (("adhesive-sphere", 'contact.adhesion.range="50 nm"'), "grid.shape to"),
+        "adhesive-sphere",
+    ),
     "flat_patch_with_free_edges": (
         (with_(ROUGH, grid__periodic=[True, False]), "free along y"),
         ROUGH,

@@ -2,37 +2,25 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from bem.adhesion.figures import mean_contact_traction
+from bem.adhesion.zone import FEWEST_CELLS, cells_in_zone, zone_notes
 from bem.grid import FloatArray, Grid
 from bem.kinds.contact.scene import ContactScene
 from bem.kinds.contact.solve import adhesion_tolerance
 from bem.notes import Note
-from bem.notes.contact import ADHESION_JUMPS, ADHESIVE_ZONE_UNRESOLVED
+from bem.notes.contact import ADHESION_ENDS_APART, ADHESION_JUMPS
+from bem.reference_solutions.adhesive_sphere import dmt_pull_off_force, jkr_pull_off_force, tabor_parameter
 from bem.scenes import build
 from bem.scenes.context import Context
 
 if TYPE_CHECKING:
     from bem.accuracy import ContactCase, ErrorBars
-    from bem.adhesion import AdhesionLaw, AdhesiveHistory
+    from bem.adhesion import AdhesiveHistory
     from bem.contact import ContactSolution
     from bem.stress import StressSummary
-
-FEWEST_CELLS = 2.0
-"""Cells across the adhesive zone at an edge, below which the edge is held by the grid."""
-
-
-def adhesive_zone(law: AdhesionLaw, modulus: float) -> float:
-    """Return the width of the zone in which attraction acts at the edge of a wide contact [m].
-
-    pi E* w / (4 strength^2), with strength = w / range: Dugdale's zone of a crack whose energy is the work of adhesion
-    (Maugis 1992). Infinite for a range so long that its square overflows.
-    modulus : E* [Pa].
-    """
-    return math.pi * modulus * law.range * law.range / (4 * law.work)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +65,13 @@ class AdhesiveResponse:
             "adhesive_energy": path.last.energy,
             "mean_contact_traction": mean_contact_traction(path.last, law),
         }
+        shape = scene.shape
+        if shape.kind == "sphere" and shape.radius is not None:
+            found |= {
+                "jkr_lowest_load": -jkr_pull_off_force(law.work, shape.radius),
+                "dmt_lowest_load": -dmt_pull_off_force(law.work, shape.radius),
+                "tabor_parameter": tabor_parameter(law.work, shape.radius, build.modulus_of(scene), law.range),
+            }
         return found | {"lowest_load": path.lowest_load} if len(path.load) > 1 else found
 
     def arrays(self, scene: ContactScene) -> dict[str, Any]:
@@ -99,28 +94,28 @@ class AdhesiveResponse:
         law = scene.contact.adhesion
         assert law is not None
         path = scene.contact.path(case.grid.area)
-        return adhesive_bars(case, law, self.path, path, adhesion_tolerance(scene))
+        steps, tolerance = len(next(iter(path.values()))), adhesion_tolerance(scene)
+
+        def after(done: int) -> None:
+            context.progress(done, steps, "path on the grid of twice the cell")
+
+        return adhesive_bars(case, law, self.path, path, tolerance, after)
 
 
 def zone_is_resolved(scene: ContactScene, grid: Grid) -> bool:
     """Return True if the cells resolve the adhesive zone, and without adhesion."""
     law = scene.contact.adhesion
-    return law is None or adhesive_zone(law, build.modulus_of(scene)) >= FEWEST_CELLS * _longest_cell(grid)
-
-
-def _longest_cell(grid: Grid) -> float:
-    """Return the longer side of a cell [m], along an axis of several cells."""
-    return max(d for n, d in zip(grid.shape, grid.spacing, strict=True) if n > 1)
+    return law is None or cells_in_zone(law, build.modulus_of(scene), grid) >= FEWEST_CELLS
 
 
 def adhesion_notes(scene: ContactScene, grid: Grid, path: AdhesiveHistory) -> tuple[Note, ...]:
-    """Return notes on jumps, and on an adhesive zone that the cells do not resolve."""
-    law, notes = scene.contact.adhesion, []
+    """Return notes on an adhesive zone that the cells do not resolve, on jumps, and on a path that ends apart."""
+    law = scene.contact.adhesion
     assert law is not None
-    zone, cell = adhesive_zone(law, build.modulus_of(scene)), _longest_cell(grid)
-    if not zone_is_resolved(scene, grid):
-        notes.append(ADHESIVE_ZONE_UNRESOLVED(zone=zone, cell=cell, wanted=zone / FEWEST_CELLS))
+    notes = list(zone_notes(law, build.modulus_of(scene), grid, "solved"))
     if path.jumped.any():
         first = int(path.jumped.argmax())
         notes.append(ADHESION_JUMPS(jumps=int(path.jumped.sum()), load=float(path.load[first]), steps=len(path.load)))
+    if path.contact_area.any() and not path.contact_area[-1]:
+        notes.append(ADHESION_ENDS_APART(lowest=path.lowest_load, area=float(path.contact_area.max())))
     return tuple(notes)

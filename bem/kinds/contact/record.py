@@ -20,7 +20,11 @@ if TYPE_CHECKING:
 
 _coating = partial(Figure, optional=True, headline=True)
 _interfaces = partial(_coating, dimensions=("interface",))
+_sphere = partial(Figure, optional=True, headline=True, unjudged=True)
 _layers = partial(_coating, dimensions=("layer",))
+_place = partial(Figure, "m", optional=True, unjudged=True)
+_at_interface = partial(_place, dimensions=("interface",))
+_in_layer = partial(_place, dimensions=("layer",))
 
 
 def layer_names(body: Body) -> tuple[str, ...]:
@@ -32,6 +36,18 @@ def layer_names(body: Body) -> tuple[str, ...]:
 class ContactRecord(GridRecord, WheelRailRecord):
     """A solved contact, and the stresses below it where they are asked for."""
 
+    lowest_load: Annotated[
+        float | None, Figure("N", "lowest load on the path; minus the pull-off force", optional=True, headline=True)
+    ] = None
+    jkr_lowest_load: Annotated[
+        float | None, _sphere("N", "minus the pull-off force of a sphere by Johnson, Kendall and Roberts (soft)")
+    ] = None
+    dmt_lowest_load: Annotated[
+        float | None, _sphere("N", "minus the pull-off force of a sphere by Derjaguin, Muller and Toporov (stiff)")
+    ] = None
+    tabor_parameter: Annotated[
+        float | None, _sphere("", "Tabor's parameter of a sphere: JKR holds far above one, DMT far below")
+    ] = None
     load: Annotated[float, Figure("N", "load", headline=True)]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid", headline=True)]
     plastic_area_fraction: Annotated[
@@ -98,14 +114,48 @@ class ContactRecord(GridRecord, WheelRailRecord):
         FloatArray | None,
         _layers("", "maximum von Mises stress in each layer over its yield stress", unjudged=True),
     ] = None
-    substrate_max_von_mises: Annotated[
-        float | None, _coating("Pa", "maximum von Mises stress below the layers", unjudged=True)
-    ] = None
+    substrate_max_von_mises: Annotated[float | None, _coating("Pa", "maximum von Mises stress below the layers")] = None
     substrate_yield_ratio: Annotated[
         float | None, _coating("", "that over the yield stress of the material there", unjudged=True)
     ] = None
-    lowest_load: Annotated[
-        float | None, Figure("N", "lowest load on the path; minus the pull-off force", optional=True, headline=True)
+    interface_max_shear_x: Annotated[
+        FloatArray | None, _at_interface("x of the highest shear stress across each interface")
+    ] = None
+    interface_max_shear_y: Annotated[
+        FloatArray | None, _at_interface("y of the highest shear stress across each interface")
+    ] = None
+    interface_max_tension_x: Annotated[
+        FloatArray | None, _at_interface("x of the highest tension across each interface")
+    ] = None
+    interface_max_tension_y: Annotated[
+        FloatArray | None, _at_interface("y of the highest tension across each interface")
+    ] = None
+    layer_max_von_mises_x: Annotated[
+        FloatArray | None, _in_layer("x of the maximum von Mises stress in each layer")
+    ] = None
+    layer_max_von_mises_y: Annotated[
+        FloatArray | None, _in_layer("y of the maximum von Mises stress in each layer")
+    ] = None
+    layer_max_von_mises_depth: Annotated[
+        FloatArray | None, _in_layer("depth of the maximum von Mises stress in each layer")
+    ] = None
+    layer_max_tension_x: Annotated[FloatArray | None, _in_layer("x of the maximum principal stress in each layer")] = (
+        None
+    )
+    layer_max_tension_y: Annotated[FloatArray | None, _in_layer("y of the maximum principal stress in each layer")] = (
+        None
+    )
+    layer_max_tension_depth: Annotated[
+        FloatArray | None, _in_layer("depth of the maximum principal stress in each layer")
+    ] = None
+    substrate_max_von_mises_x: Annotated[float | None, _place("x of the maximum von Mises stress below the layers")] = (
+        None
+    )
+    substrate_max_von_mises_y: Annotated[float | None, _place("y of the maximum von Mises stress below the layers")] = (
+        None
+    )
+    substrate_max_von_mises_depth: Annotated[
+        float | None, _place("depth of the maximum von Mises stress below the layers")
     ] = None
     mean_contact_traction: Annotated[
         float | None,

@@ -105,8 +105,11 @@ class ElasticResponse:
         body, sign = scene.stressed()
         friction = sign * scene.contact.friction
         bars |= stress_bars(case, coarser, body, below, friction)
-        coated = body.layers and below.stress is not None
-        return bars | coating_bars(case, coarser, body, below, friction) if coated else bars
+        if not body.layers or below.stress is None:
+            return bars
+        from bem.accuracy.coating import with_one_estimate
+
+        return with_one_estimate(bars | coating_bars(case, coarser, body, below, friction), below, body)
 
 
 def solve_response(scene: ContactScene, grid: Grid, undeformed: FloatArray, context: Context) -> Response:

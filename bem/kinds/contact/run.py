@@ -14,7 +14,7 @@ from bem.kinds.contact.errors import bars_of
 from bem.kinds.contact.record import ContactRecord
 from bem.kinds.contact.response import solve_response
 from bem.kinds.contact.scene import ContactScene
-from bem.materials import softer_hardness
+from bem.materials import Body, softer_hardness
 from bem.notes import Level, Note, has_code
 from bem.notes.contact import CONTACT_AT_EDGE, CONTACT_UNRESOLVED
 from bem.notes.note import without
@@ -140,7 +140,8 @@ def _coating_fields(
     scene: ContactScene, grid: Grid, pressure: FloatArray, below: StressSummary | None
 ) -> dict[str, Any]:
     """Fields of the record on layers and interfaces of the stressed body; none without layers or components."""
-    from bem.stress import coating_maxima, layer_stresses
+    from bem.stress import coating_maxima, layer_places, layer_stresses
+    from bem.stress.layer_places import highest_point
 
     body, sign = scene.stressed()
     if below is None or below.stress is None or not body.layers:
@@ -152,20 +153,38 @@ def _coating_fields(
     stated = {"layer_residual_stress": residual} if residual.any() else {}
     stresses = layer_stresses(maxima.highest, body)
     strengths = [np.nan if material.yield_stress is None else material.yield_stress for material in body.media]
-    beneath = [float(below.von_mises[k].max()) for k in np.flatnonzero(below.depths > body.interfaces[-1])]
-    substrate = {}
-    if beneath:
-        ratio = max(beneath) / strengths[-1]
+    beneath = np.flatnonzero(below.depths > body.interfaces[-1])
+    places = dataclasses.asdict(layer_places(below.stress, below.von_mises, maxima, grid, body))
+    layers, medium = stresses.layer_max_von_mises.copy(), _most_stressed(below, body)
+    if medium < len(layers):  # the highest of all is between points and depths: one estimate of one stress
+        layers[medium] = below.max_von_mises
+        places["layer_max_von_mises_depth"][medium] = below.max_von_mises_depth
+    substrate: dict[str, Any] = {}
+    if beneath.size:
+        k = int(beneath[np.argmax(below.highest[beneath])])
+        ix, iy = highest_point(below.von_mises[k])
+        own = medium == len(layers)
+        stress = below.max_von_mises if own else float(below.highest[k])
+        ratio = stress / strengths[-1]
         substrate = {
-            "substrate_max_von_mises": max(beneath),
+            "substrate_max_von_mises": stress,
+            "substrate_max_von_mises_x": float(grid.x[ix]),
+            "substrate_max_von_mises_y": float(grid.y[iy]),
+            "substrate_max_von_mises_depth": below.max_von_mises_depth if own else float(below.depths[k]),
             "substrate_yield_ratio": ratio if math.isfinite(ratio) else None,
         }
     return (
         dataclasses.asdict(stresses)
-        | {"layer_yield_ratio": stresses.layer_max_von_mises / np.array(strengths[:-1])}
+        | places
+        | {"layer_max_von_mises": layers, "layer_yield_ratio": layers / np.array(strengths[:-1])}
         | substrate
         | stated
     )
+
+
+def _most_stressed(below: StressSummary, body: Body) -> int:
+    """Return the number of the layer with the highest von Mises stress of all, or that of layers for the body below."""
+    return body.medium_at(float(below.depths[np.argmax(below.highest)]))
 
 
 def _cut_off(scene: ContactScene, grid: Grid, solution: ContactSolution) -> tuple[Note, ...]:

@@ -79,6 +79,7 @@ def solve_adhesive(scene: ContactScene, grid: Grid, undeformed: FloatArray, cont
     def watch(number: int, state: AdhesiveSolution) -> None:
         context.progress(number + 1, steps, "path", residual=state.residual)
 
+    context.progress(0, steps, "path")
     history = follow_path(
         undeformed,
         build.operator_of(scene, grid),

@@ -13,6 +13,5 @@ ALSO: tuple[str, ...] = (
 CITES = {
     "kalker1990": "rolling contact",
     "carter1926": "creepage",
-    "kalker1971": "transient rolling",
     "love1929": "influence functions",
 }

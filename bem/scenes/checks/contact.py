@@ -16,6 +16,7 @@ from bem.notes.checks import (
     YIELDS,
 )
 from bem.notes.contact import CONTACT_AT_EDGE
+from bem.scenes import build
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.hertz import LARGEST_SLOPE
 from bem.scenes.checks.registry import scene_check
@@ -110,6 +111,20 @@ def grid_smaller_than_hertz(facts: Facts) -> Iterator[Note]:
             wanted=1.5 * size,
             reason="grid",
         )
+
+
+@scene_check
+def adhesive_zone_of_few_cells(facts: Facts) -> Iterator[Note]:
+    """Cells must resolve the zone in which attraction acts at the edge of a contact, which is known before a run."""
+    law = getattr(getattr(facts.scene, "contact", None), "adhesion", None)
+    if law is None:
+        return
+    from bem.adhesion.zone import zone_notes
+
+    for case in facts.cases:
+        if case.grid is not None:
+            yield from zone_notes(law, build.modulus_of(facts.scene), case.grid, "foreseen")
+            return
 
 
 def _lengths_across(case: Case, axis: int) -> float:

@@ -1,0 +1,60 @@
+"""Width of the zone in which adhesion acts at the edge of a contact, and whether cells resolve it."""
+
+from __future__ import annotations
+
+import math
+
+from bem.adhesion.laws import AdhesionLaw
+from bem.grid import Grid
+from bem.notes import Note
+from bem.notes.contact import ADHESIVE_ZONE_UNRESOLVED
+
+FEWEST_CELLS = 2.0
+"""Cells across the adhesive zone at an edge, below which the edge is held by the grid."""
+
+
+def adhesive_zone(law: AdhesionLaw, modulus: float) -> float:
+    """Return the width of the zone in which attraction acts at the edge of a wide contact [m].
+
+    pi E* w / (4 strength^2), with strength = w / range: Dugdale's zone of a crack whose energy is the work of adhesion
+    (Maugis 1992). Infinite for a range so long that its square overflows.
+    modulus : E* [Pa].
+    """
+    return math.pi * modulus * law.range * law.range / (4 * law.work)
+
+
+def longest_cell(grid: Grid) -> float:
+    """Return the longer side of a cell [m], along an axis of several cells."""
+    return max(d for n, d in zip(grid.shape, grid.spacing, strict=True) if n > 1)
+
+
+def cells_in_zone(law: AdhesionLaw, modulus: float, grid: Grid) -> float:
+    """Return the number of cells across the adhesive zone; see `adhesive_zone`."""
+    return adhesive_zone(law, modulus) / longest_cell(grid)
+
+
+def resolved_range(law: AdhesionLaw, modulus: float, grid: Grid) -> float:
+    """Return the shortest range whose adhesive zone the cells resolve at the law's work [m]."""
+    return law.range * math.sqrt(FEWEST_CELLS / cells_in_zone(law, modulus, grid))
+
+
+def zone_notes(law: AdhesionLaw, modulus: float, grid: Grid, reason: str) -> tuple[Note, ...]:
+    """Return the note on an adhesive zone that the cells do not resolve, with what does; none if they do.
+
+    reason : "foreseen" before the run, "solved" of its results.
+    """
+    zone, cell = adhesive_zone(law, modulus), longest_cell(grid)
+    if zone >= FEWEST_CELLS * cell:
+        return ()
+    wanted = zone / FEWEST_CELLS
+    cells = [n if n == 1 else math.ceil(length / wanted) for n, length in zip(grid.shape, grid.lengths, strict=True)]
+    return (
+        ADHESIVE_ZONE_UNRESOLVED(
+            zone=zone,
+            cell=cell,
+            wanted=wanted,
+            cells=" x ".join(map(str, cells)),
+            longer=resolved_range(law, modulus, grid),
+            reason=reason,
+        ),
+    )
