@@ -10,7 +10,9 @@ The rows of the tensions were chosen on the seeds 90417 and 5150. On 90417 the h
 surface, a fifth of that of four times the cells, and that one a tenth of the limit: both have a cusp at the edge of the
 contact. Since then the figures have the tension at the edge (`bem.stress.edge_tension`), the principal stress beyond
 free edges of the grid, and the tension of shallow interfaces without waves of two cells (`bem.stress.coating_maxima`),
-in the references too. The seed is one that nothing was chosen on.
+in the references too. On 48611 four of the six bars of shear that missed were of interfaces less than half a cell below
+the surface of grids that do not repeat, where the shear was too low by 34 to 116 %; the floor `steps` was chosen on
+cylinders and balls since then. The seed is one that nothing was chosen on.
 """
 
 from __future__ import annotations
@@ -101,7 +103,7 @@ def _known(bars: FloatArray) -> list[float | None]:
     return [None if math.isnan(bar) else bar for bar in bars.tolist()]
 
 
-EXPERIMENT = Experiment("coating_error_bars", draw, solve, cases=60, seed=48611)
+EXPERIMENT = Experiment("coating_error_bars", draw, solve, cases=60, seed=20611)
 
 if __name__ == "__main__":
     main(EXPERIMENT)

@@ -4,6 +4,7 @@
 """
 
 import dataclasses
+import json
 
 import numpy as np
 from error_bar_ratios import ratios_of
@@ -12,6 +13,7 @@ from bem import Body, Grid, Layer, Material, displacement_operator, solve_contac
 from bem.accuracy import ContactCase, ErrorBars, coating_bars, solve_coarser
 from bem.accuracy.coating import NAMES, with_one_estimate
 from bem.stress import depth_maxima, layer_stresses, summarise_stress, with_layer_depths
+from reports.error_bars import together
 from reports.experiments.coating_error_bars import EXPERIMENT, draw
 
 STEEL = Material("steel", youngs_modulus=200e9, poissons_ratio=0.3)
@@ -25,7 +27,12 @@ BODY = Body(
 
 
 def test_bars_of_random_coatings_cover_nine_errors_in_ten():
-    """On grids that repeat, whose references take seconds."""
+    """On grids that repeat, whose references take seconds.
+
+    Half of these bars are of deep interfaces, whose shear is right to 2e-5 to 5e-4 by chance, or of tensions that are a
+    thousandth of the shear stress, which no bar says so closely: the median ratio hangs on them, not on wide bars of
+    the tension of layers, whose median is 10. Of the 60 cases of the experiment it is 5.
+    """
     rng, rows, number = np.random.default_rng(4), [], 0
     while number < 5:
         drawn = draw(rng)
@@ -35,6 +42,31 @@ def test_bars_of_random_coatings_cover_nine_errors_in_ten():
     ratios = ratios_of(rows, 30)
     assert np.mean(ratios >= 1) >= 0.9
     assert np.median(ratios) < 15
+
+
+def test_bars_of_the_stored_cases_are_not_wider_than_they_need():
+    stored = together(json.loads(EXPERIMENT.path.read_text(encoding="utf-8"))["rows"])
+    assert stored["covered"] >= 0.9
+    assert stored["median_ratio"] < 6
+
+
+def test_shear_under_steps_of_the_pressure_is_covered():
+    """An interface within a cell of the surface: below the centres the shear stress is less than between them."""
+    soft = Material("soft", youngs_modulus=70e9, poissons_ratio=0.25)
+    for depth in (0.3, 0.5, 0.7):
+        body = Body(STEEL, layers=(Layer(soft, depth * 1e-7),))
+        found = {}
+        for factor in (1, 4):
+            grid = Grid((40 * factor, 1), (1e-7 / factor, 1e-6), periodic=(False, True))
+            gap, operator = 2e4 * grid.x[:, None] ** 2, displacement_operator(grid, body)
+            case = ContactCase(operator, gap, solve_contact(gap, operator, load=0.02), load=0.02)
+            depths = np.array([0.0, 0.5, 1.0, 2.0]) * depth * 1e-7
+            below = summarise_stress(case.solution.pressure, grid, body, depths, components=True)
+            found[factor] = case, below, layer_stresses(depth_maxima(below.stress, below.von_mises, depths, body), body)
+        (case, below, coarse), fine = found[1], found[4][2]
+        bar = coating_bars(case, solve_coarser(case), body, below).values["interface_max_shear"][0]
+        missed = fine.interface_max_shear[0] - coarse.interface_max_shear[0]
+        assert 0.15 * coarse.interface_max_shear[0] < missed < bar < 2.5 * missed
 
 
 def ball(cells, hardness=None):
