@@ -76,7 +76,12 @@ CONTACT_BENT = define(
         "bent": Reason(
             "The normals turn by {angle:.0f} deg across the contact, and it is solved on one plane: pressures in its"
             " outer parts have a wrong direction.",
-            "Take the result as an estimate.",
+            "Set shape.conforming = true in kind contact; elsewhere take the result as an estimate.",
+        ),
+        "turned": Reason(
+            "The normals turn by {angle:.0f} deg across the contact. Half-spaces that are turned with the surface make"
+            " the pressure of a shaft in a hole 0.8 % too high at 40 deg, 1.6 % at 60 deg and 3.4 % at 90 deg.",
+            "Compare with finite elements where this matters.",
         ),
     },
 )

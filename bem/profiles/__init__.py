@@ -5,19 +5,26 @@ Coordinates: x along the rail in the direction of rolling, y to the right, z dow
 - `profile`: a profile from its points, smoothed by a spline; profile files.
 - `catalogue`: profiles of published arcs and polynomials.
 - `placement`: a wheel set on a rail: contact points, contact angle, local radii, spin of the contact angle.
-- `gap`: the undeformed gap over the tangent plane of a contact point.
+- `gap`: the undeformed gap over the tangent plane of a contact point, or along the rail.
+- `curved_surface`, `curved_contact`: frictionless contact on the curved surface of the rail.
 """
 
 from bem.profiles.catalogue import catalogued_profile
-from bem.profiles.gap import gap_over_tangent_plane
+from bem.profiles.curved_contact import CurvedContact, solve_curved_contact
+from bem.profiles.curved_surface import CurvedSurface
+from bem.profiles.gap import gap_along_rail, gap_over_tangent_plane
 from bem.profiles.placement import ContactPoint, WheelOnRail
 from bem.profiles.profile import Profile, read_profile
 
 __all__ = [
     "ContactPoint",
+    "CurvedContact",
+    "CurvedSurface",
     "Profile",
     "WheelOnRail",
     "catalogued_profile",
+    "gap_along_rail",
     "gap_over_tangent_plane",
     "read_profile",
+    "solve_curved_contact",
 ]

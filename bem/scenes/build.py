@@ -88,7 +88,7 @@ def heights_of(
 
 def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
     """Gap of the upper body's smooth shape over the plane [m], (nx, ny), new; spheres and cylinders as parabolas,
-    profiles over the tangent plane of their contact point."""
+    profiles over the tangent plane of their contact point, or along the rail."""
     x, y = grid.x[:, None], grid.y[None, :]
     if scene.kind == "flat":
         gap = np.zeros(grid.shape)
@@ -97,10 +97,11 @@ def shape_of(scene: ShapeScene, grid: Grid) -> FloatArray:
         assert scene.wavelength is not None
         gap = scene.amplitude * (1 - np.cos(2 * np.pi * x / scene.wavelength)) + 0 * y
     elif scene.kind == "profiles":
-        from bem.profiles import gap_over_tangent_plane
+        from bem.profiles.gap import gap_along_rail, gap_over_tangent_plane
 
         placed = scene.placed()
-        gap = gap_over_tangent_plane(placed, placed.contact_points[0], grid)
+        gap_of = gap_along_rail if scene.conforming else gap_over_tangent_plane
+        gap = gap_of(placed, placed.contact_points[0], grid)
     else:
         assert scene.radius is not None
         curvature = {"sphere": 1 / scene.radius, "cylinder": 0.0, "ellipsoid": 1 / (scene.radius_y or math.inf)}[

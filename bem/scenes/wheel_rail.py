@@ -23,9 +23,13 @@ from bem.scenes.records import Figure, Record, Series
 if TYPE_CHECKING:
     from bem.contact import ContactSolution
     from bem.profiles import ContactPoint, WheelOnRail
+    from bem.profiles.gap import Rows
 
 INCLINED = math.radians(10.0)
 """Difference of the normals [rad] from which pressures on one plane have a wrong direction: its cosine is 1.5 % off."""
+TURNED = math.radians(45.0)
+"""Turn of the normals across a contact [rad] from which half-spaces turned with the surface are 1 % off for a shaft in
+a hole."""
 NEAR = 2e-4
 """Gap [m] of a second contact point up to which it is told."""
 
@@ -51,6 +55,9 @@ class WheelRailRecord(Record):
     contact_point_z: Annotated[FloatArray | None, _points("m", "contact points: z on the rail, down")] = None
     contact_point_angle: Annotated[FloatArray | None, _points("rad", "contact points: contact angle")] = None
     contact_point_gap: Annotated[FloatArray | None, _points("m", "contact points: gap before loading")] = None
+    row_y: Annotated[FloatArray | None, Series(("y",), "m", "rows of cells: y on the rail")] = None
+    row_z: Annotated[FloatArray | None, Series(("y",), "m", "rows of cells: z on the rail, down")] = None
+    row_angle: Annotated[FloatArray | None, Series(("y",), "rad", "rows of cells: angle of their tangent")] = None
     wheel_profile_y: Annotated[FloatArray | None, _wheel("m", "profile of the wheel on the rail: y")] = None
     wheel_profile_z: Annotated[FloatArray | None, _wheel("m", "profile of the wheel on the rail: z, down")] = None
     rail_profile_y: Annotated[FloatArray | None, _rail("m", "profile of the rail: y")] = None
@@ -64,6 +71,7 @@ def fields(scene: Any, grid: Grid, contact: ContactSolution) -> dict[str, Any]:
     placed: WheelOnRail = scene.shape.placed()
     points = placed.contact_points
     first, second = points[0], points[1] if len(points) > 1 else None
+    rows = _rows(scene, placed, grid.y)
     touched: NDArray[np.bool_] = np.asarray(contact.pressure > 0)
     wheel_y, wheel_z = _section_of_wheel(placed, first)
     rail_y, rail_z = placed.rail.at(placed.rail.samples)
@@ -80,6 +88,9 @@ def fields(scene: Any, grid: Grid, contact: ContactSolution) -> dict[str, Any]:
         "contact_point_z": of("z"),
         "contact_point_angle": of("angle"),
         "contact_point_gap": of("gap"),
+        "row_y": first.y + rows.y,
+        "row_z": first.z + rows.z,
+        "row_angle": rows.angle,
         "wheel_profile_y": wheel_y,
         "wheel_profile_z": wheel_z,
         "rail_profile_y": rail_y,
@@ -99,11 +110,14 @@ def tell_profiles(scene: Any, grid: Grid, contact: ContactSolution, context: Con
         _tell_second(scene, grid, contact, first, other, context)
     columns = np.flatnonzero((contact.pressure > 0).any(axis=0))
     low, high = max(int(columns[0]) - 1, 0), min(int(columns[-1]) + 1, grid.shape[1] - 1)
-    if not covered(placed, first, grid.y[[low, high]]).all():
+    if not covered(placed, first, _rows(scene, placed, grid.y[[low, high]])).all():
         tell(context, [PROFILE_ENDS()])
         return
     turned = _turn_across(placed, first, grid.y[[columns[0], columns[-1]]])
-    if turned > INCLINED:
+    if scene.shape.conforming:
+        if turned > TURNED:
+            tell(context, [CONTACT_BENT(angle=math.degrees(turned), reason="turned")])
+    elif turned > INCLINED:
         tell(context, [CONTACT_BENT(angle=math.degrees(turned), reason="bent")])
 
 
@@ -113,7 +127,11 @@ def _tell_second(
     across, along = other.y - first.y, other.z - first.z
     beside = math.hypot(across, along)
     turned = abs(other.angle - first.angle)
-    inside = abs(across * first.tangent[0] + along * first.tangent[1]) < 0.5 * grid.lengths[1]
+    conforming = bool(scene.shape.conforming)
+    away = across * first.tangent[0] + along * first.tangent[1]
+    if conforming:
+        away = other.rail_parameter - first.rail_parameter
+    inside = abs(away) < 0.5 * grid.lengths[1]
     # the bodies come closer by the approach, less what the load of the first contact moves the surfaces there
     closing = contact.approach * math.cos(turned) - contact.load / (math.pi * build.modulus_of(scene) * beside)
     told: dict[str, Any] = {
@@ -123,11 +141,19 @@ def _tell_second(
         "closing": max(closing, 0.0),
     }
     if inside:
-        tell(context, [SECOND_CONTACT(reason="inclined" if turned > INCLINED else "inside", **told)])
+        tell(context, [SECOND_CONTACT(reason="inclined" if turned > INCLINED and not conforming else "inside", **told)])
     elif closing > other.gap:
         tell(context, [SECOND_CONTACT(reason="left-out", **told)])
     elif other.gap < NEAR:
         tell(context, [SECOND_CONTACT(reason="open", **told)])
+
+
+def _rows(scene: Any, placed: WheelOnRail, y: FloatArray) -> Rows:
+    """Return the rows of cells at the distances y [m] of the grid."""
+    from bem.profiles.gap import rows_on_rail, rows_on_tangent_plane
+
+    first = placed.contact_points[0]
+    return rows_on_rail(placed, first, y) if scene.shape.conforming else rows_on_tangent_plane(first, y)
 
 
 def _turn_across(placed: WheelOnRail, point: ContactPoint, y: FloatArray) -> float:

@@ -180,6 +180,71 @@ def test_a_bent_contact_and_the_end_of_a_profile_are_told(tmp_path):
     assert PROFILE_ENDS.code in codes(ended)
 
 
+CURVED = STANDARD | {"lateral": "2 mm", "conforming": True}
+
+
+def curved(shape=CURVED, cells=(24, 66), **tables):
+    given = {"grid": {"shape": list(cells), "lengths": ["24 mm", "44 mm"]}, "contact": {"load": "80 kN"}}
+    return scene(shape, **(given | tables))
+
+
+def test_tread_and_flange_root_are_solved_on_one_curved_surface():
+    """Two patches of other normals; error bars cover the difference to finer cells."""
+    record, context, _ = run(curved(cells=(32, 108)))
+    assert record.status == "converged"
+    assert CONTACT_BENT.code not in codes(context)
+    (note,) = [note for note in context.notes if note.code == SECOND_CONTACT.code]
+    assert note.values["reason"] == "inside"
+    loaded = np.flatnonzero((record.pressure > 0).any(axis=0))
+    assert (np.diff(loaded) > 1).any()
+    assert np.ptp(np.degrees(record.row_angle[loaded])) > 12
+    finer, _, _ = run(curved(cells=(64, 216), outputs={"errors": False}))
+    for name in ("approach", "max_pressure", "contact_area", "lateral_force"):
+        assert abs(getattr(record, name) - getattr(finer, name)) <= record.errors[name], name
+        assert record.errors[name] < 0.1 * abs(getattr(finer, name)), name
+
+
+def test_a_flat_place_of_the_rail_is_the_same_curved_or_not():
+    """On the tread the normals turn by 5 degrees: pressures agree within 0.3 %."""
+    shape = STANDARD | {"lateral": "-1 mm"}
+    flat, _, _ = run(curved(shape, outputs={"errors": False}))
+    bent, _, _ = run(curved(shape | {"conforming": True}, outputs={"errors": False}))
+    assert bent.max_pressure == pytest.approx(flat.max_pressure, rel=3e-3)
+    assert bent.approach == pytest.approx(flat.approach, rel=3e-3)
+    assert flat.lateral_force is None
+    assert abs(bent.lateral_force) < 0.01 * bent.load
+    back, _, resolved = run(curved(shape | {"conforming": True}, contact={"approach": bent.approach}))
+    assert back.load == pytest.approx(bent.load, rel=1e-6)
+    assert back.errors["approach"] < 1e-7 * bent.approach
+    assert get_kind("contact").plan(resolved).memory > 8 * 25 * 66**2
+
+
+def test_normals_that_turn_far_are_told():
+    turned = curved(CURVED | {"lateral": "3.5 mm"}, contact={"load": "200 kN"}, outputs={"errors": False})
+    _, context, _ = run(turned | {"grid": {"shape": [24, 80], "lengths": ["30 mm", "40 mm"]}})
+    (note,) = [note for note in context.notes if note.code == CONTACT_BENT.code]
+    assert note.values["reason"] == "turned"
+    assert 45 < note.values["angle"] < 60
+
+
+@pytest.mark.parametrize(
+    ("tables", "message"),
+    [
+        ({"contact": {"load": "1 kN", "friction": 0.1}}, "contact.friction"),
+        ({"contact": {"mean_gap": "1 um"}}, "contact.mean_gap"),
+        ({"contact": {"load": "1 kN", "behaviour": "capped"}}, "capped"),
+        ({"upper": {"material": "phosphor-bronze"}}, "different materials"),
+        ({"upper": {}}, "different materials"),
+        ({"outputs": {"von_mises": True}}, "stresses below the surface"),
+        ({"lower": {"material": "steel-52100", "layer": {"material": "dlc", "thickness": "2 um"}}}, "layers"),
+        ({"kind": "rolling", "roll": {"friction": 0.3}}, "kind contact, or conforming = false"),
+    ],
+)
+def test_a_curved_contact_is_smooth_elastic_and_without_friction(tables, message):
+    with pytest.raises(InputError, match=message):
+        load_scene(curved() | tables)
+
+
 @pytest.mark.parametrize(
     ("shape", "tables", "message"),
     [

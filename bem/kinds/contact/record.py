@@ -166,6 +166,10 @@ class ContactRecord(GridRecord, WheelRailRecord):
             headline=True,
         ),
     ] = None
+    lateral_force: Annotated[
+        float | None,
+        Figure("N", "resultant of the pressures on the rail across the load, to the right", optional=True),
+    ] = None
     adhesive_energy: Annotated[float | None, Figure("J", "elastic and adhesive energy", optional=True)] = None
     hysteresis_friction: Annotated[
         float | None, Figure("", "friction coefficient of hysteresis", optional=True, headline=True)

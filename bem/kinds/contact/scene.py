@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field, model_validator
 
 from bem.adhesion.laws import AdhesionLaw
+from bem.scenes import build
 from bem.scenes.common import Force, SmoothSurface, problem, refuse_relaxation, relaxing_bodies, special_bodies
 from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
@@ -136,8 +137,40 @@ class ContactScene(StressedScene):
     kind: Literal["contact"] = key("Kind of computation.", "basic", default="contact")
     viscoelastic: ClassVar[bool] = True
     special_surfaces: ClassVar[bool] = True
+    curved_surfaces: ClassVar[bool] = True
     contact: AdhesiveControl = key("Control of the contact: load, pressure, approach or gap.", "basic")
     outputs: ContactOutputs = key("Results besides pressure, gap and displacement.", "basic", default=ContactOutputs())
+
+    @model_validator(mode="after")
+    def _conforming_bodies_pressed_alone(self) -> ContactScene:
+        if not self.shape.conforming:
+            return self
+        contact = self.contact
+        wrong = [
+            name
+            for name, there in (
+                ("layers", bool(self.lower.stack or self.upper.stack)),
+                ("a rough surface", any(body.surface.kind != "smooth" for body in (self.lower, self.upper))),
+                ("contact.adhesion", contact.adhesion is not None),
+                ("contact.friction", contact.friction != 0),
+                ("contact.mean_gap", contact.mean_gap is not None),
+                ('contact.behaviour = "capped"', contact.behaviour == "capped"),
+                ("bodies that relax", bool(contact.times) or self.speeds is not None),
+                ("a crystal or surface tension", bool(special_bodies(self))),
+                ("stresses below the surface", self.outputs.below),
+            )
+            if there
+        ]
+        if wrong:
+            raise problem(
+                f"shape.conforming with {wrong[0]}", "smooth, homogeneous, elastic bodies under a load or an approach"
+            )
+        if build.traction_couples(self.lower.build(), self.upper.build(), 1.0):
+            raise problem(
+                "shape.conforming with bodies of different materials, whose pressures move the surfaces in their plane",
+                "bodies of one material, or conforming = false",
+            )
+        return self
 
     @model_validator(mode="after")
     def _special_bodies_pressed_alone(self) -> ContactScene:

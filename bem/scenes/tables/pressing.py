@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -157,6 +157,15 @@ class PressedScene(SceneModel):
                 f"contact.hertz_pressure under a shape of kind {self.shape.kind}",
                 "a sphere, cylinder or ellipsoid, or contact.mean_pressure",
             )
+        return self
+
+    curved_surfaces: ClassVar[bool] = False
+    """Whether the kind solves contacts on a curved surface."""
+
+    @model_validator(mode="after")
+    def _curved_where_known(self) -> Self:
+        if self.shape.conforming and not self.curved_surfaces:
+            raise problem("shape.conforming in this kind", "kind contact, or conforming = false")
         return self
 
     @model_validator(mode="after")

@@ -25,7 +25,7 @@ _NEEDED: dict[str, tuple[str, ...]] = {
     "sinusoid": ("amplitude", "wavelength"),
     "profiles": ("wheel", "rail", "rolling_radius"),
 }
-_OPTIONAL: dict[str, tuple[str, ...]] = {"profiles": ("rail_radius", "lateral", "roll", "yaw")}
+_OPTIONAL: dict[str, tuple[str, ...]] = {"profiles": ("rail_radius", "lateral", "roll", "yaw", "conforming")}
 
 
 class ShapeScene(Table):
@@ -80,6 +80,14 @@ class ShapeScene(Table):
         default=None,
         reason="0",
         example="0.5 deg",
+    )
+
+    conforming: bool | None = key(
+        "Solve on the curved surface of the rail, y its arc length, not on the tangent plane; for the kind contact.",
+        "advanced",
+        default=None,
+        reason="false",
+        strict=True,
     )
 
     @model_validator(mode="after")

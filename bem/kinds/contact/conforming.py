@@ -1,0 +1,99 @@
+"""Contact of wheel and rail on their curved surface: solver call, results and error bars."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from bem.grid import FloatArray, Grid
+from bem.kinds.contact.scene import ContactScene
+from bem.kinds.contact.solve import standing_off
+from bem.notes import Note
+from bem.scenes import build
+from bem.scenes.context import Context
+
+if TYPE_CHECKING:
+    from bem.accuracy import ContactCase, ErrorBars
+    from bem.contact import ContactSolution
+    from bem.profiles.curved_contact import CurvedContact
+    from bem.stress import StressSummary
+
+_COARSER_TOLERANCE = 1e-6
+"""Tolerance of the contact on the grid of twice the cell."""
+
+
+def solve_conforming(scene: ContactScene, grid: Grid, undeformed: FloatArray, tolerance: float) -> CurvedContact:
+    """Solve the contact of a scene on a grid whose y is the arc length of the rail."""
+    from bem.profiles.curved_contact import solve_curved_contact
+    from bem.profiles.curved_surface import CurvedSurface
+    from bem.profiles.gap import rows_on_rail
+
+    placed = scene.shape.placed()
+    point = placed.contact_points[0]
+    rows, bodies = rows_on_rail(placed, point, grid.y), build.bodies_of(scene)
+    surface = CurvedSurface(grid, rows.y, rows.z, rows.angle, bodies if isinstance(bodies, tuple) else (bodies,))
+    return solve_curved_contact(
+        undeformed,
+        surface,
+        point.angle,
+        load=scene.contact.load_on(grid.area),
+        approach=scene.contact.approach,
+        tolerance=tolerance,
+        max_iterations=scene.contact.max_iterations,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class ConformingResponse:
+    """Elastic contact on the curved surface; a `Response`."""
+
+    solved: CurvedContact
+
+    differentiable = False
+
+    @property
+    def contact(self) -> ContactSolution:
+        """See `Response`."""
+        return self.solved.contact
+
+    @property
+    def traction(self) -> FloatArray:
+        """See `Response`."""
+        return self.contact.pressure
+
+    def notes(self, scene: ContactScene, grid: Grid) -> tuple[Note, ...]:
+        """See `Response`."""
+        return ()
+
+    def notes_apart(self) -> tuple[Note, ...]:
+        """See `Response`."""
+        return standing_off(self.contact)
+
+    def figures(self, scene: ContactScene) -> dict[str, Any]:
+        """See `Response`."""
+        return {"lateral_force": self.solved.lateral_force}
+
+    def arrays(self, scene: ContactScene) -> dict[str, Any]:
+        """See `Response`."""
+        return {}
+
+    def bars(self, scene: ContactScene, case: ContactCase, below: StressSummary | None, context: Context) -> ErrorBars:
+        """See `Response`; of the lateral force it is the difference to the grid of twice the cell."""
+        from bem.accuracy import Coarser, ErrorBars, contact_bars
+        from bem.accuracy.bars import GRID
+        from bem.accuracy.coarsened import half_grid
+        from bem.contact.certificate import free_edges_reached
+        from bem.errors import Status
+        from bem.notes.accuracy import NoBar
+
+        names = ("lateral_force",)
+        if free_edges_reached(case.grid.periodic, self.contact.pressure):
+            return contact_bars(case, Coarser(None, None, NoBar.FREE_EDGE)) | ErrorBars.unknown(names, NoBar.FREE_EDGE)
+        grid = half_grid(case.grid)
+        there = solve_conforming(scene, grid, build.shape_of(scene.shape, grid), _COARSER_TOLERANCE)
+        if there.contact.status is not Status.CONVERGED:
+            failed = Coarser(None, None, NoBar.COARSER_UNSOLVED)
+            return contact_bars(case, failed) | ErrorBars.unknown(names, NoBar.COARSER_UNSOLVED)
+        lateral = abs(there.lateral_force - self.solved.lateral_force)
+        own = ErrorBars.together({GRID: {"lateral_force": lateral}})
+        return contact_bars(case, Coarser(grid, there.contact)) | own
