@@ -93,8 +93,11 @@ def test_waves_have_their_closed_form():
         assert points < 0.92 * exact
 
 
-@pytest.mark.parametrize(("cells", "dy"), [((64, 64), 1.0), ((64, 80), 1.0), ((64, 96), 0.6), ((96, 64), 1.0)])
-def test_waves_askew_to_the_traction_have_their_closed_form(cells, dy):
+@pytest.mark.parametrize(
+    ("cells", "dy", "close"),
+    [((64, 64), 1.0, 0.01), ((64, 80), 1.0, 0.015), ((64, 96), 0.6, 0.02), ((96, 64), 1.0, 0.035)],
+)
+def test_waves_askew_to_the_traction_have_their_closed_form(cells, dy, close):
     """As above, with the traction at 39 to 56 degrees from the wavevector: its part along the edge shears the surface
     by half of what its part across the edge strains it. Along the edge there is no strain."""
     grid, height, friction = Grid(cells, (1.0, dy), periodic=(True, True)), 1e-3, 0.3
@@ -109,7 +112,7 @@ def test_waves_askew_to_the_traction_have_their_closed_form(cells, dy):
         across = rubbed * cosine + (1 - NU / (1 - NU)) * mean
         along = NU * rubbed * cosine + (2 * NU - NU / (1 - NU)) * mean
         exact = 0.5 * (across + along) + math.hypot(0.5 * (across - along), 0.5 * rubbed * sine)
-        assert edge == pytest.approx(exact, rel=0.035)
+        assert edge == pytest.approx(exact, rel=close)
         assert points < 0.92 * exact
 
 
