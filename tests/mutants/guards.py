@@ -19,6 +19,7 @@ GUARDS: dict[str, list[str]] = {
     "surfaces": ["tests/surfaces"],
     "particles": ["tests/particles"],
     "viscoelastic": ["tests/viscoelastic"],
+    "tangential": ["tests/tangential", "tests/scenes/test_partial_slip_kind.py", "tests/scenes/test_rolling_kind.py"],
     "results": ["tests/results", "tests/reliability/test_damaged_runs.py"],
 }  # fmt: skip
 """For each room the files and folders whose tests are run, in this order."""
