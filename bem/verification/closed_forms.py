@@ -45,6 +45,26 @@ def curve(
     return Curve(quantity, along, unit, points, values, reference, np.zeros(values.size), allowance, reason)
 
 
+def curves_over(
+    along: str,
+    places: Sequence[float],
+    figures: Sequence[tuple[str, str, float, str]],
+    found: Sequence[Sequence[float]],
+    exact: Sequence[Sequence[float]],
+) -> list[Curve]:
+    """Return a comparison for each figure of several solutions.
+
+    along, places : quantity that differs between the solutions, and its values. figures : quantity, unit, allowance and
+    reason of each. found, exact : for each solution, its figures in the same order.
+    """
+    rows = zip(figures, np.transpose(found), np.transpose(exact), strict=True)
+    line = _line(np.asarray(places, dtype=np.float64))
+    return [
+        curve(quantity, along, unit, line, own, reference, allowance, reason)
+        for (quantity, unit, allowance, reason), own, reference in rows
+    ]
+
+
 def _line(x: NDArray[Any]) -> FloatArray:
     return np.column_stack([x, 0 * x, 0 * x])
 

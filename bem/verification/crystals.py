@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from bem.contact import solve_contact
 from bem.convolution import displacement_operator
 from bem.grid import Grid
 from bem.materials import CATALOGUE, Body, Material
 from bem.reference_solutions.crystal_hertz import crystal_hertz
-from bem.verification.closed_forms import curve
+from bem.verification.closed_forms import curves_over
 from bem.verification.rows import Curve, Gate
 
 _ORIENTATIONS = (((0, 0, 1), (1, 0, 0)), ((1, 1, 0), (0, 0, 1)), ((1, 1, 1), (1, -1, 0)), ((1, 2, 3), (1, 1, -1)))
@@ -34,24 +32,13 @@ def crystal_ball() -> list[Curve]:
         )
         found.append((contact.approach, contact.maximum_pressure, contact.contact_area))
         exact.append((one.approach, one.maximum_pressure, math.pi * one.semi_axes[0] * one.semi_axes[1]))
-    count = len(_ORIENTATIONS)
-    line = np.column_stack([np.arange(float(count)), np.zeros(count), np.zeros(count)])
     reason = "40 cells over the radius; surfaces (001), (110), (111) and (123)"
-    return [
-        curve(
-            name,
-            "over surfaces",
-            unit,
-            line,
-            np.array([one[k] for one in found]),
-            np.array([one[k] for one in exact]),
-            tolerance,
-            reason,
-        )
-        for k, (name, unit, tolerance) in enumerate(
-            (("approach", "m", 2e-4), ("maximum pressure", "Pa", 5e-4), ("contact area", "m^2", 3e-3))
-        )
-    ]
+    figures = (
+        ("approach", "m", 2e-4, reason),
+        ("maximum pressure", "Pa", 5e-4, reason),
+        ("contact area", "m^2", 3e-3, reason),
+    )
+    return curves_over("over surfaces", range(len(_ORIENTATIONS)), figures, found, exact)
 
 
 def gates() -> list[Gate]:

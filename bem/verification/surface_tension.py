@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from bem.contact import solve_contact
 from bem.convolution import displacement_operator
 from bem.grid import Grid
 from bem.materials import Body, Material
 from bem.reference_solutions.tense_ball import tense_ball
-from bem.verification.closed_forms import curve
+from bem.verification.closed_forms import curves_over
 from bem.verification.rows import Curve, Gate
 
 _RATIOS = (0.1, 1.0, 10.0)
@@ -35,28 +33,14 @@ def ball_on_a_tense_gel() -> list[Curve]:
         middle = touching.pressure[cells // 2 - 1 : cells // 2 + 1, cells // 2 - 1 : cells // 2 + 1].mean()
         found.append((touching.approach, middle, 2 * areas[1] - areas[0]))
         exact.append((one.approach, one.maximum_pressure, math.pi * contact**2))
-    line = np.column_stack([_RATIOS, np.zeros(3), np.zeros(3)])
     reason = "49 cells over the contact radius; elastocapillary lengths of 0.1, 1 and 10 contact radii"
     area = f"{reason}, and half as many: the pressure ends on a step, so that the area is extrapolated at first order"
-    return [
-        curve(
-            name,
-            "over elastocapillary length",
-            unit,
-            line,
-            np.array([one[k] for one in found]),
-            np.array([one[k] for one in exact]),
-            tolerance,
-            why,
-        )
-        for k, (name, unit, tolerance, why) in enumerate(
-            (
-                ("approach", "m", 5e-5, reason),
-                ("pressure in the middle", "Pa", 2e-4, reason),
-                ("contact area", "m^2", 3e-3, area),
-            )
-        )
-    ]
+    figures = (
+        ("approach", "m", 5e-5, reason),
+        ("pressure in the middle", "Pa", 2e-4, reason),
+        ("contact area", "m^2", 3e-3, area),
+    )
+    return curves_over("over elastocapillary length", _RATIOS, figures, found, exact)
 
 
 def gates() -> list[Gate]:

@@ -7,8 +7,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from bem import Body, Grid, InputError, Layer, Material, displacement_operator
-from bem.kernels import anisotropic, coefficients, half_space, semi_periodic, spectral
+from bem import Body, Grid, InputError, Material, displacement_operator
+from bem.kernels import anisotropic, half_space, semi_periodic, spectral
 from bem.kernels.cell_integrals import cell_table
 from bem.kernels.loads import Load
 from bem.materials import CATALOGUE
@@ -335,27 +335,6 @@ def test_effective_modulus_is_that_of_the_mean_over_directions() -> None:
     exact = material.stiffness.surface_compliance(angle.ravel()).reshape(angle.shape) / np.hypot(kx, ky)[1:8, 1:8]
     np.testing.assert_allclose(response[1:8, 1:8], exact, rtol=1e-12)
     assert response[0, 0] == 0
-
-
-def test_a_crystal_has_what_its_contact_needs_and_no_more() -> None:
-    crystal = CATALOGUE["silicon-crystal"].material
-    free, both = Grid((8, 8), (1e-6, 1e-6)), Grid((8, 8), (1e-6, 1e-6), periodic=(True, True))
-    for refused in (
-        lambda: coefficients.stress_coefficients(free, Body(crystal), 1e-6, Load.NORMAL),
-        lambda: spectral.stress_response(both, Body(crystal), 1e-6, Load.NORMAL),
-        lambda: coefficients.in_plane_coefficients(free, Body(crystal)),
-        lambda: spectral.in_plane_response(both, Body(crystal)),
-        lambda: coefficients.surface_coefficients(free, Body(crystal), Load.TANGENTIAL),
-        lambda: displacement_operator(free, Body(crystal), friction=0.1),
-    ):
-        with pytest.raises(InputError, match="not known of a crystal"):
-            refused()
-    for layered in (
-        lambda: Body(crystal, layer=Layer(STEEL, 1e-6)),
-        lambda: Body(STEEL, layer=Layer(crystal, 1e-6)),
-    ):
-        with pytest.raises(InputError, match="crystal in a body with layers"):
-            layered()
 
 
 @pytest.mark.parametrize(

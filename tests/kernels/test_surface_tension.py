@@ -6,9 +6,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from bem import Body, Grid, InputError, Layer, Material, displacement_operator
-from bem.contact import sensitivities, solve_contact
-from bem.kernels import coefficients, half_space, semi_periodic, spectral, surface_tension
+from bem import Body, Grid, InputError, Material, displacement_operator
+from bem.kernels import half_space, semi_periodic, surface_tension
 from bem.kernels.loads import Load
 
 PLAIN = Material("gel", youngs_modulus=10e3, poissons_ratio=0.45)
@@ -125,23 +124,6 @@ def test_operator_adds_both_bodies() -> None:
         np.testing.assert_allclose(found, exact, rtol=1e-12, atol=1e-13 * exact.max())
 
 
-def test_what_tension_does_not_have_is_refused() -> None:
-    free, both = Grid((8, 8), (1e-6, 1e-6)), Grid((8, 8), (1e-6, 1e-6), periodic=(True, True))
-    body = Body(gel(0.03))
-    for refused in (
-        lambda: coefficients.stress_coefficients(free, body, 1e-6, Load.NORMAL),
-        lambda: spectral.stress_response(both, body, 1e-6, Load.NORMAL),
-        lambda: coefficients.in_plane_coefficients(free, body),
-        lambda: displacement_operator(free, body, friction=0.1),
-    ):
-        with pytest.raises(InputError, match="not known of a surface under tension"):
-            refused()
-    with pytest.raises(InputError, match="has surface tension in a body with layers"):
-        Body(gel(0.03), layer=Layer(PLAIN, 1e-6))
+def test_a_tension_that_is_none_is_refused() -> None:
     with pytest.raises(InputError, match=r"surface_tension 0\.0 must be positive"):
         gel(0.0)
-    gap = (free.x[:, None] ** 2 + free.y**2) / 2e-5
-    operator = displacement_operator(free, body)
-    solution = solve_contact(gap, operator, load=1e-9)
-    with pytest.raises(InputError, match="surface tension"):
-        sensitivities(solution, gap, operator)

@@ -7,7 +7,6 @@ import pytest
 from bem import InputError, load_scene, run_scene
 from bem.materials import CATALOGUE
 from bem.reference_solutions.crystal_hertz import crystal_hertz
-from bem.scenes.starts import start_scene
 
 ON_111 = {"normal": [1, 1, 1], "along_x": [1, -1, 0]}
 
@@ -77,19 +76,6 @@ CUBIC = {"crystal": "cubic", "c11": "3 GPa", "c12": "1 GPa", "c44": "1 GPa"}
         (ball({"youngs_modulus": "3 GPa", "poissons_ratio": 0.3, "orientation": ON_111}), "without stiffness"),
         (ball({"stiffness": CUBIC, "orientation": {"along_x": [0, 0, 1]}}), "is the normal"),
         (
-            ball("copper-crystal", contact={"load": "1 N", "friction": 0.1}),
-            "contact.friction, and lower.material is a crystal",
-        ),
-        (
-            ball("copper-crystal", outputs={"von_mises": True}),
-            "stresses below the surface of lower, whose material is a crystal",
-        ),
-        (
-            ball("copper-crystal")
-            | {"lower": {"material": "copper-crystal", "layer": {"material": "TiN", "thickness": 1e-6}}},
-            "layers on a body whose material is a crystal",
-        ),
-        (
             ball("TiN") | {"lower": {"material": "TiN", "layer": {"material": "copper-crystal", "thickness": 1e-6}}},
             "layer is a crystal",
         ),
@@ -99,9 +85,3 @@ def test_refusals(scene, message):
     with pytest.raises(InputError) as raised:
         load_scene(scene)
     assert message in str(raised.value)
-
-
-def test_other_kinds_refuse_crystals():
-    start = start_scene("partial-slip")
-    with pytest.raises(InputError, match=r"lower\.material is a crystal"):
-        load_scene(start | {"lower": start["lower"] | {"material": "copper-crystal"}})

@@ -6,7 +6,6 @@ import pytest
 
 from bem import InputError, load_scene, run_scene
 from bem.reference_solutions.tense_ball import tense_ball
-from bem.scenes.starts import start_scene
 
 GEL = {"youngs_modulus": "5 kPa", "poissons_ratio": 0.49, "surface_tension": "31 mN/m"}
 
@@ -66,24 +65,12 @@ def test_tension_weakens_the_pull_off_of_an_adhesive_bead(tmp_path):
     [
         (bead(GEL | {"surface_tension": "-1 mN/m"}), "surface_tension"),
         (bead(GEL | {"relaxation": {"shares": [0.5], "times": ["1 s"]}}), "surface_tension is given beside relaxation"),
-        (bead(contact={"load": "1 uN", "friction": 0.1}), "contact.friction, and lower.material has surface tension"),
-        (bead(outputs={"von_mises": True}), "stresses below the surface of lower, whose material has surface tension"),
-        (
-            bead() | {"lower": {"material": GEL, "layer": {"material": "TiN", "thickness": 1e-6}}},
-            "layers on a body whose material has surface tension",
-        ),
     ],
 )
 def test_refusals(scene, message):
     with pytest.raises(InputError) as raised:
         load_scene(scene)
     assert message in str(raised.value)
-
-
-def test_other_kinds_refuse_surface_tension():
-    start = start_scene("partial-slip")
-    with pytest.raises(InputError, match=r"lower\.material has surface tension"):
-        load_scene(start | {"lower": start["lower"] | {"material": GEL}})
 
 
 def test_smooth_contact_of_plans_knows_surface_tension():
