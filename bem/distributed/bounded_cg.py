@@ -9,18 +9,23 @@ deformed gap h = g + Kp - d:
    Ribiere's coefficient, not less than zero. The preconditioner convolves with the stiffness of harmonic waves
    (Vollebregt 2014), so iterations hardly grow with the number of cells.
 3. The step minimises the energy along the direction. Where it leaves the bounds, the pressure is projected onto them
-   (Polonsky and Keer 1999), and the step shortened to the minimum on the segment between both, on which the
-   displacement is linear.
+   (Polonsky and Keer 1999). Where that goes far beyond the minimum of energy on the segment between both, on which the
+   displacement is linear, the step is shortened to this minimum.
 4. Where the projected step does not lower the energy, a projected gradient step takes its place, of length one over the
    largest response: it always lowers the energy. So no step raises it.
 
 A load is met by the approach: whenever the violation is small against the error of the load, a secant step within a
 bracket gives the next approach. The load rises with the approach, so there is one answer.
 
-The approach, not a shift of the pressures, carries the load: with a hardness a uniform shift displaces far more than it
+On a doubly periodic grid a uniform pressure displaces nothing, and near full contact the load runs away with the
+approach. K therefore has a compliance c of the mean there: c F is added to the displacement of all cells, and to the
+approach. The deformed gap is the same, the energy strictly convex. A prescribed approach is then searched as a load is.
+
+The approach, not a shift of the pressures, meets the load: with a hardness a uniform shift displaces far more than it
 mends, and the iteration hardly converges.
 
-Cost: an iteration takes two convolutions, three where it projects, four after a rejected step.
+Cost: an iteration takes two convolutions in single precision, one more in double precision where it projects, and two
+where the projected step is rejected.
 
 Sources: Polonsky and Keer, Wear 231 (1999) 206; Vollebregt, J. Comput. Phys. 257 (2014) 333; neither original was at
 hand, the algorithm follows from the energy.
@@ -45,8 +50,16 @@ BoolArray = NDArray[np.bool_]
 _LEAST_STEP = 0.02
 """Least fraction of a projected step that is taken; below it a gradient step follows."""
 
+_WHOLE_STEP = 2 / 3
+"""Fraction of a projected step at the minimum of energy from which on the whole step is taken. It still takes off a
+quarter of the first slope (Armijo's condition), and cells reach their bounds; shortened steps keep them a bit off."""
+
 _CLOSED = 1e-12
 """Width of a bracket of approaches, over the approach, at which it is closed: above rounding."""
+
+_REFRESH = 1e-4
+"""Fall of the residual after which the displacement is computed in double precision again: responses in single
+precision add errors of about 1e-6 of what the residual was."""
 
 _STALLED = 150
 """Iterations without a violation lower by a tenth after which the solution stops."""
@@ -74,71 +87,87 @@ class SlabProblem:
 
 
 class Iterate(NamedTuple):
-    """A pressure within the bounds and its displacement, own rows."""
+    """A pressure within the bounds and its displacement, own rows.
+
+    exact : True if the displacement was computed in double precision, not summed from responses in single precision.
+    """
 
     pressure: FloatArray
     displacement: FloatArray
+    exact: bool = True
 
 
 class Direction(NamedTuple):
-    """A search direction, the residual that it was made of, and that residual's product with the preconditioned one."""
+    """Search direction and the residual that it was made of, in single precision, and the product of that residual with
+    the preconditioned one."""
 
-    values: FloatArray
-    residual: FloatArray
+    values: NDArray[np.float32]
+    residual: NDArray[np.float32]
     product: float
 
 
 @dataclass
 class ApproachSearch:
-    """The approach: prescribed, or that of a prescribed load.
+    """Search for the approach at which the load, or the approach without the mean compliance, is the prescribed one.
 
-    approach : present value [m], above the gap's lowest value.
-    force : prescribed sum of pressures [Pa]; None where the approach is prescribed.
-    limits : approaches below and above that of the load [m].
-    scale : length over which the load changes by its own size [m]; for the first change of the approach.
-    ratio : violation relative to the error of the load below which the load is good enough for a change.
+    approach : present value [m], above the gap's lowest value, with the mean compliance.
+    target : prescribed sum of pressures [Pa], or prescribed approach [m].
+    controls_load : which of both is prescribed.
+    compliance : displacement of all cells per sum of pressures [m/Pa], that of `ColumnSpectra.mean_compliance`.
+    length : over which the load changes by its own size, and in which errors of an approach are measured [m].
+    ratio : violation relative to the error below which the pressure is exact enough for a change of the approach.
     """
 
     approach: float
-    force: float | None = None
-    limits: tuple[float, float] = (0.0, math.inf)
-    scale: float = math.inf
+    target: float
+    controls_load: bool
+    compliance: float
+    length: float
     ratio: float = 0.3
-    _bracket: tuple[float, float] | None = None
+    _bracket: tuple[float, float] = (-math.inf, math.inf)
     _last: tuple[float, float] | None = None
 
     def error(self, force: float) -> float:
-        """Return the relative error of the load, with its sign; zero where the approach is prescribed."""
-        return 0.0 if self.force is None else (force - self.force) / self.force
+        """Return the relative error of the prescribed quantity, with its sign, from the sum of pressures."""
+        if self.controls_load:
+            return (force - self.target) / self.target
+        return (self.true_approach(force) - self.target) / self.length
+
+    def true_approach(self, force: float) -> float:
+        """Return the approach without the mean compliance [m]."""
+        return self.approach - self.compliance * force
 
     def is_due(self, error: float, violation: float) -> bool:
-        """Return True if the violation, over its reference, is small against the error of the load."""
+        """Return True if the violation, over its reference, is small against the error."""
         return violation <= self.ratio * min(1.0, abs(error))
 
     def advance(self, error: float) -> None:
-        """Change the approach after an error of the load: a secant step within the bracket, else bisection.
+        """Change the approach after an error: a secant step within the bracket, else bisection.
 
-        Loads of pressures that still violate the contact conditions may bracket wrongly. A bracket that has closed
-        before the load is met is opened again, and pressures are then asked to be ten times as exact.
+        Pressures that still violate the contact conditions may bracket wrongly. A bracket that has closed before the
+        error is met is opened again, and pressures are then asked to be ten times as exact.
         """
         here = self.approach
-        low, high = self._bracket or self.limits
+        low, high = self._bracket
         low, high = (max(low, here), high) if error < 0 else (low, min(high, here))
-        if math.isfinite(high) and high - low <= _CLOSED * high:
+        if high - low <= _CLOSED * abs(here):
             self.ratio *= 0.1
-            (low, high), self._last = self.limits, None
-        step = -error * min(self.scale, 2 / 3 * here)  # two thirds: a ball's load grows as approach^(3/2)
+            (low, high), self._last = (-math.inf, math.inf), None
+        step = -error * self.length
+        if self.controls_load:  # two thirds: a ball's load grows as approach^(3/2)
+            step = -error * (min(self.length, 2 / 3 * here) + self.compliance * self.target)
         if self._last is not None and self._last[1] != error:
             step = -error * (here - self._last[0]) / (error - self._last[1])
         trial = here + step
-        if not low < trial < high:
-            trial = 0.5 * (low + high) if math.isfinite(high) else 2 * here
+        if not low < trial < high or step * error >= 0:
+            outer = high if error < 0 else low
+            trial = 0.5 * (here + outer) if math.isfinite(outer) else here - math.copysign(self.length, error)
         self._last, self.approach, self._bracket = (here, error), trial, (low, high)
 
 
 @dataclass(frozen=True)
 class BoundedResult:
-    """Last iterate, its approach above the gap's lowest value [m], iterations, and whether the tolerance was met."""
+    """Last iterate, its true approach above the gap's lowest value [m], iterations; whether the tolerance was met."""
 
     iterate: Iterate
     approach: float
@@ -165,7 +194,7 @@ def solve_bounded(
     """
     iterate = Iterate(pressure, problem.convolution.displacement(pressure))
     direction: Direction | None = None
-    best, since = math.inf, 0
+    best, since, last_exact = math.inf, 0, math.inf
     for iteration in range(max_iterations + 1):
         deformed = problem.gap + iterate.displacement - search.approach
         (force, loaded), (violation, displacement) = problem.reduce(
@@ -173,20 +202,24 @@ def solve_bounded(
             (_violations(problem, iterate.pressure, deformed), np.abs(iterate.displacement)),
         )
         scale, error = reference(displacement), search.error(force)
-        residual = max(max(violation, 0.0) / scale, abs(error))
+        residual, approach = max(max(violation, 0.0) / scale, abs(error)), search.true_approach(force)
         if callback is not None:
             callback(iteration, residual, loaded / problem.convolution.grid.cells)
+        last_exact = residual if iterate.exact else last_exact
+        if not iterate.exact and (residual <= tolerance or residual < _REFRESH * last_exact):
+            iterate = Iterate(iterate.pressure, problem.convolution.displacement(iterate.pressure))
+            continue
         if residual <= tolerance:
-            return BoundedResult(iterate, search.approach, iteration, met=True, stalled=False)
+            return BoundedResult(iterate, approach, iteration, met=True, stalled=False)
         best, since = (residual, 0) if residual < 0.9 * best else (best, since + 1)
         if since > _STALLED:
-            return BoundedResult(iterate, search.approach, iteration, met=False, stalled=True)
+            return BoundedResult(iterate, approach, iteration, met=False, stalled=True)
         if abs(error) > tolerance and search.is_due(error, violation / scale):
             search.advance(error)
             direction = None
             continue
         iterate, direction = _step(problem, iterate, deformed, direction)
-    return BoundedResult(iterate, search.approach, max_iterations, met=False, stalled=False)
+    return BoundedResult(iterate, approach, max_iterations, met=False, stalled=False)
 
 
 def _violations(problem: SlabProblem, pressure: FloatArray, deformed: FloatArray) -> FloatArray:
@@ -220,7 +253,7 @@ def _step(
         if product + factor * along <= 0:
             factor = 0.0
         values, slope = preconditioned + factor * before, product + factor * along
-    response = problem.convolution.displacement(values)
+    response = problem.convolution.response(values)
     (curvature,), _ = problem.reduce((values * response,))
     if not (curvature > 0 and slope > 0):
         return _gradient_step(problem, iterate, deformed), None
@@ -228,10 +261,10 @@ def _step(
     trial = pressure + length * values
     bounded = np.clip(trial, 0.0, problem.cap)
     (outside,), _ = problem.reduce(((trial != bounded).astype(np.float64),))
-    direction = Direction(values, residual, product)
+    direction = Direction(values.astype(np.float32), residual.astype(np.float32), product)
     if outside == 0:
-        return Iterate(trial, iterate.displacement + length * response), direction
-    del trial, response
+        return Iterate(trial, iterate.displacement + length * response, exact=False), direction
+    del trial, response, values, residual, preconditioned
     projected = _along_segment(problem, iterate, deformed, bounded)
     if projected is None:
         return _gradient_step(problem, iterate, deformed), None
@@ -248,13 +281,13 @@ def _gradient_step(problem: SlabProblem, iterate: Iterate, deformed: FloatArray)
 def _along_segment(
     problem: SlabProblem, iterate: Iterate, deformed: FloatArray, end: FloatArray, least: float = _LEAST_STEP
 ) -> Iterate | None:
-    """Return the pressure of least energy between an iterate and another pressure; None if that is near the iterate."""
+    """Return another pressure, or that of least energy on the way to it; None if that is near the iterate."""
     there = problem.convolution.displacement(end)
     change, change_of_displacement = end - iterate.pressure, there - iterate.displacement
     (slope, curvature), _ = problem.reduce((change * deformed, change * change_of_displacement))
     if not (slope < 0 and curvature > 0) or -slope <= least * curvature:
         return None
     fraction = -slope / curvature
-    if fraction >= 1:
+    if fraction >= _WHOLE_STEP:
         return Iterate(end, there)
     return Iterate(iterate.pressure + fraction * change, iterate.displacement + fraction * change_of_displacement)

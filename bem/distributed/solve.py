@@ -113,14 +113,20 @@ def solve_slabs(
         largest = max(displacement, scale)
         return (largest if is_flat(rms, largest) else rms) or 1.0
 
-    force = None if load is None else load / grid.cell_area
     iterations = 0
-    known = _known(problem, force, None if approach is None else approach - least, mean - least)
-    if known is None:
+    if load == 0 or (approach is not None and approach <= least):
+        pressure, above, unmet = np.zeros_like(gap), 0.0 if approach is None else approach - least, Status.STALLED
+    else:
         start, coarse_approach = coarse_start(gap, grid, pair, ranks, load=load, approach=approach, cap=cap)
-        most = mean - least if all(grid.periodic) and math.isinf(cap) else math.inf
-        begin = coarse_approach if approach is None else approach
-        search = ApproachSearch(begin - least, force, (0.0, most), 0.5 * rms or math.inf)
+        compliance = convolution.spectra.mean_compliance / grid.cells
+        (first_force,), _ = problem.reduce((start,))
+        search = ApproachSearch(
+            (coarse_approach if approach is None else approach) - least + compliance * first_force,
+            (load or 0.0) / grid.cell_area if approach is None else approach - least,
+            approach is None,
+            compliance,
+            0.5 * rms or math.inf,
+        )
         found = solve_bounded(
             problem,
             search,
@@ -133,8 +139,6 @@ def solve_slabs(
         pressure, above, iterations = found.iterate.pressure, found.approach, found.iterations
         unmet = Status.STALLED if found.stalled else Status.MAX_ITERATIONS
         del found
-    else:
-        (pressure, above), unmet = known, Status.STALLED
     return _certified(
         problem,
         pressure,
@@ -211,25 +215,6 @@ def _refuse_infeasible(
         )
 
 
-def _known(
-    problem: SlabProblem, force: float | None, approach: float | None, mean: float
-) -> tuple[FloatArray, float] | None:
-    """Return pressure and approach of contacts known in closed form, None for others.
-
-    Without pressure: no load, or an approach before first touch. Full contact of doubly periodic elastic bodies under a
-    load: the inverse of all waves, on the mean pressure.
-    """
-    gap, grid = problem.gap, problem.convolution.grid
-    if force == 0 or (approach is not None and approach <= 0):
-        return np.zeros_like(gap), 0.0 if approach is None else approach
-    if force is None or not all(grid.periodic):
-        return None
-    pressure = problem.convolution.precondition(mean - gap)  # the mean of its argument is zero
-    pressure += force / grid.cells
-    _, (highest, lowest) = problem.reduce(maxima=(pressure, -pressure))
-    return (pressure, mean) if lowest <= 0 and highest <= problem.cap else None
-
-
 def _certified(
     problem: SlabProblem,
     pressure: FloatArray,
@@ -248,6 +233,9 @@ def _certified(
     convolution: SlabConvolution = problem.convolution
     grid, cap = convolution.grid, problem.cap
     displacement = convolution.displacement(pressure)
+    if convolution.spectra.mean_compliance > 0:
+        (force,), _ = problem.reduce((pressure,))
+        displacement -= convolution.spectra.mean_compliance / grid.cells * force
     deformed = problem.gap + displacement - approach
     touching = pressure > 0
     violation = np.where(touching, np.where(pressure >= cap, deformed, np.abs(deformed)), -deformed)

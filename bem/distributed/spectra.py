@@ -32,12 +32,14 @@ class ColumnSpectra:
     """Spectra at non-negative wavenumbers along x, on own columns: each (px // 2 + 1, own columns).
 
     response : displacement over pressure [m/Pa]. stiffness : pressure over displacement [Pa/m], of waves on the padded
-    grid: the preconditioner. largest : the largest response of all columns [m/Pa].
+    grid: the preconditioner. largest : the largest response of all columns [m/Pa]. mean_compliance : response to the
+    mean pressure that is included on doubly periodic grids, where the bodies have none [m/Pa]; else zero.
     """
 
     response: FloatArray
-    stiffness: FloatArray
+    stiffness: NDArray[np.float32]
     largest: float
+    mean_compliance: float
 
 
 def responds_evenly(body: Body) -> bool:
@@ -50,13 +52,14 @@ def column_spectra(grid: Grid, bodies: tuple[Body, ...], ranks: Ranks) -> Column
     """Compute the spectra of own columns; collective."""
     padded = padded_shape(grid.shape, grid.periodic)
     columns = own_slice(padded[1] // 2 + 1, ranks)
+    stiffness, mean_compliance = _stiffness(grid, bodies, padded, columns)
     if all(grid.periodic):
-        response = _waves(grid, bodies, columns)
+        response = 1 / stiffness
     else:
-        response = _coefficients(grid, bodies, padded, ranks)
+        response, mean_compliance = _coefficients(grid, bodies, padded, ranks), 0.0
     own_largest = float(np.abs(response).max(initial=0.0))
     largest = float(ranks.all_rows(np.full((1, 1), own_largest), ranks.size).max())
-    return ColumnSpectra(response, _stiffness(grid, bodies, padded, columns), largest)
+    return ColumnSpectra(response, stiffness.astype(np.float32), largest, mean_compliance)
 
 
 def _waves(grid: Grid, bodies: tuple[Body, ...], columns: slice) -> FloatArray:
@@ -65,17 +68,20 @@ def _waves(grid: Grid, bodies: tuple[Body, ...], columns: slice) -> FloatArray:
     return np.asarray(sum(factor * pressure_response(grid, body, columns) for body, factor in terms))
 
 
-def _stiffness(grid: Grid, bodies: tuple[Body, ...], padded: tuple[int, int], columns: slice) -> FloatArray:
-    """Return the inverse of the response to harmonic pressures on the padded grid.
+def _stiffness(
+    grid: Grid, bodies: tuple[Body, ...], padded: tuple[int, int], columns: slice
+) -> tuple[FloatArray, float]:
+    """Return the inverse of the response to harmonic pressures on the padded grid, and the response given to the mean.
 
-    The mean, which has no response, gets half the stiffness of the longest wave.
+    The mean, which has no response, gets twice that of the longest wave.
     """
     whole = Grid(padded, grid.spacing, periodic=(True, True))
     response = _waves(whole, bodies, columns)
+    longest = _waves(whole, bodies, slice(0, min(2, padded[1] // 2 + 1)))[:2]
+    mean = 2 * float(longest.max()) or 1.0
     if columns.start == 0 and columns.stop > 0:
-        longest = _waves(whole, bodies, slice(0, min(2, padded[1] // 2 + 1)))[:2]
-        response[0, 0] = 2 * float(longest.max()) or 1.0
-    return 1 / response
+        response[0, 0] = mean
+    return 1 / response, mean
 
 
 def _coefficients(grid: Grid, bodies: tuple[Body, ...], padded: tuple[int, int], ranks: Ranks) -> FloatArray:
