@@ -132,6 +132,8 @@ _SHORTEST = 1.5
 _PART, _SHORT = 0.65, 6.0
 """Part of a cell along its width by which a sticking area of fewer cells (`_SHORT`) along the rolling is wrong, in
 30 rolling balls of 7 to 12 cells to the radius with falling friction."""
+_CRESCENT = 0.2
+"""Fraction of the contact up to which what sticks is a crescent."""
 _ROUND_OFF = 1e-9
 """Part of the creepage over its length, below which it is zero by symmetry."""
 
@@ -220,7 +222,7 @@ def _missed_stick(case: ContactCase, sticks: float) -> float:
         shortest = 4 / (3 * math.pi) * (0.5 * _SHORTEST * fraction) ** 1.5
     if sticks <= shortest:
         return shortest
-    return _PART * missed if length < _SHORT else 0.0
+    return _PART * missed if length < _SHORT and sticks < _CRESCENT else 0.0
 
 
 def _held_back(fine: Mapping[str, float], coarse: Mapping[str, float], limit: float) -> dict[str, float]:
