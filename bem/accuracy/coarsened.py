@@ -89,7 +89,7 @@ def solve_coarser(case: ContactCase, max_iterations: int = 2000) -> Coarser:
     """Solve the case on the grid of twice the cell, from its own pressure."""
     if free_edges_reached(case.grid.periodic, case.solution.pressure):
         return Coarser(None, None, NoBar.FREE_EDGE)
-    if _is_narrow(case):
+    if is_narrow(case):
         return Coarser(None, None, NoBar.FEW_CELLS_WIDE)
     problem = coarser_problem(case)
     if problem is None:
@@ -130,7 +130,7 @@ def coarser_problem(case: ContactCase) -> tuple[FloatArray, DisplacementOperator
     return gap - gap.min() if case.from_touch else gap, operator
 
 
-def _is_narrow(case: ContactCase) -> bool:
+def is_narrow(case: ContactCase) -> bool:
     """Return True if all that touches is one or two cells wide along an axis that it does not fill."""
     touching = case.solution.pressure > 0
     widths = [int(np.count_nonzero(touching.any(axis=1 - axis))) for axis in (0, 1)]

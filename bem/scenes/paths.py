@@ -87,8 +87,8 @@ def put(data: dict[str, Any], key: Key, value: Any, pair: bool = False) -> None:
             below = [below, below]
         elif isinstance(below, Mapping):
             below = dict(below)
-        elif isinstance(below, str) and part in ("material", "surface"):
-            below = {"catalogue": below} if part == "material" else {"kind": below}
+        elif isinstance(below, str) and part in ("material", "wheel", "rail", "surface"):
+            below = {"kind": below} if part == "surface" else {"catalogue": below}
         elif not isinstance(key[depth + 1], int):
             below = {}
         place[part] = below

@@ -44,7 +44,6 @@ def sources_with_loops():
 FIRST_RUN_COMPILES = {
     ("bem.kernels.half_plane", "_logs"),
     ("bem.kernels.half_plane", "_many"),
-    ("bem.kernels.half_space", "_many"),
     ("bem.kernels.layered.hankel", "_evaluate_all"),
     ("bem.kernels.subsurface", "_many"),
     ("bem.lubrication.point.reynolds", "_apply_flow_factors"),

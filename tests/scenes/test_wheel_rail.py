@@ -9,6 +9,7 @@ import pytest
 from bem import InputError, load_scene
 from bem.notes.contact import CONTACT_BENT, PROFILE_ENDS, SECOND_CONTACT
 from bem.reference_solutions.hertz import ellipse_contact
+from bem.runs import plan_scene
 from bem.scenes import PlainContext, get_kind
 from bem.scenes.kind import with_checksums
 
@@ -255,6 +256,7 @@ def test_a_curved_contact_is_smooth_elastic_and_without_friction(tables, message
         ({"wheel": {"catalogue": "s1002", "path": "x.txt"}}, {}, "exactly one of catalogue, path"),
         ({"wheel": {"path": "none.txt"}}, {}, "no such file"),
         ({}, {"grid": {"shape": 16, "lengths": "20 mm", "periodic": [False, True]}}, "free grid"),
+        ({}, {"contact": {"hertz_pressure": "1 GPa"}}, "no one curvature"),
     ],
 )
 def test_what_cannot_be_is_refused(shape, tables, message):
@@ -266,3 +268,17 @@ def test_spin_of_a_contact_angle_needs_profiles():
     ball = scene({"kind": "sphere", "radius": "10 mm"}, "rolling", roll={"friction": 0.3, "contact_angle_spin": True})
     with pytest.raises(InputError, match="contact_angle_spin under a shape of kind sphere"):
         load_scene(ball)
+
+
+def test_keys_of_a_profile_can_be_set_beside_its_name():
+    plain, _ = plan_scene("wheel-flange-root", ["shape.wheel.inclination=0.001"])
+    assert plain.shape.wheel.catalogue == "s1002"
+    assert plain.shape.wheel.inclination == 0.001
+
+
+def test_uncertain_shifts_of_a_curved_contact_come_from_two_more_runs():
+    known = get_kind("contact").by_tangent
+    assert not known(load_scene(curved()), "shape.lateral")
+    assert known(load_scene(curved(STANDARD)), "shape.lateral")
+    found = [run(curved(CURVED | {"lateral": shift}, outputs={"errors": False}))[0] for shift in (1.99e-3, 2.01e-3)]
+    assert found[0].max_pressure != found[1].max_pressure

@@ -81,14 +81,17 @@ class ConformingResponse:
         """See `Response`; of the lateral force it is the difference to the grid of twice the cell."""
         from bem.accuracy import Coarser, ErrorBars, contact_bars
         from bem.accuracy.bars import GRID
-        from bem.accuracy.coarsened import half_grid
+        from bem.accuracy.coarsened import half_grid, is_narrow
         from bem.contact.certificate import free_edges_reached
         from bem.errors import Status
         from bem.notes.accuracy import NoBar
 
         names = ("lateral_force",)
-        if free_edges_reached(case.grid.periodic, self.contact.pressure):
-            return contact_bars(case, Coarser(None, None, NoBar.FREE_EDGE)) | ErrorBars.unknown(names, NoBar.FREE_EDGE)
+        reason = NoBar.FREE_EDGE if free_edges_reached(case.grid.periodic, self.contact.pressure) else None
+        if is_narrow(case):
+            reason = NoBar.FEW_CELLS_WIDE
+        if reason is not None:
+            return contact_bars(case, Coarser(None, None, reason)) | ErrorBars.unknown(names, reason)
         grid = half_grid(case.grid)
         there = solve_conforming(scene, grid, build.shape_of(scene.shape, grid), _COARSER_TOLERANCE)
         if there.contact.status is not Status.CONVERGED:

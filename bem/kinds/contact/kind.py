@@ -49,5 +49,6 @@ KIND = Kind(
         ("hertz-cylinder", ()),
         ("sinusoid", ()),
         ("coated-sphere", ("grid.shape=96",)),
+        ("wheel-flange-root", ("grid.shape=[8, 44]",)),
     ),
 )

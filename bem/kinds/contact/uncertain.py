@@ -23,11 +23,11 @@ _BODIES = ("lower.", "upper.", "contact.friction")
 
 
 def by_tangent(scene: ContactScene, key: str) -> bool:
-    """Return True if the derivative of the contact propagates a key: not of a grid, with adhesion, bodies that relax or
-    stresses."""
+    """Return True if the derivative of the contact propagates a key: not of a grid, with adhesion, bodies that relax, a
+    curved surface or stresses."""
     known = key.startswith(("contact.", *_SURFACES, *_BODIES))
     elastic = scene.contact.adhesion is None and not scene.contact.times and scene.speeds is None
-    return known and elastic and not scene.wanted_depths()
+    return known and elastic and not scene.shape.conforming and not scene.wanted_depths()
 
 
 def input_changes(

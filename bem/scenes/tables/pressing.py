@@ -172,6 +172,8 @@ class PressedScene(SceneModel):
     def _profiles_on_a_free_grid(self) -> Self:
         if self.shape.kind == "profiles" and any(self.grid.periodic):
             raise problem("grid.periodic with profiles of a wheel and a rail", "a free grid")
+        if self.shape.kind == "profiles" and self.contact.hertz_pressure is not None:
+            raise problem("contact.hertz_pressure of profiles, which have no one curvature", "contact.load")
         return self
 
     def resolved(self) -> Self:
