@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray, Grid
+from bem.notes import Note
 from bem.notes.contact import CONTACT_BENT, PROFILE_ENDS, SECOND_CONTACT
 from bem.scenes import build
 from bem.scenes.context import Context, tell
@@ -106,8 +107,9 @@ def tell_profiles(scene: Any, grid: Grid, contact: ContactSolution, context: Con
 
     placed: WheelOnRail = scene.shape.placed()
     first = placed.contact_points[0]
-    for other in placed.contact_points[1:]:
-        _tell_second(scene, grid, contact, first, other, context)
+    seconds = [_second_contact(scene, grid, contact, first, other) for other in placed.contact_points[1:]]
+    # the nearest one of each kind: profiles with ripples have many
+    tell(context, {note.values["reason"]: note for note in reversed(seconds) if note is not None}.values())
     columns = np.flatnonzero((contact.pressure > 0).any(axis=0))
     low, high = max(int(columns[0]) - 1, 0), min(int(columns[-1]) + 1, grid.shape[1] - 1)
     if not covered(placed, first, _rows(scene, placed, grid.y[[low, high]])).all():
@@ -121,9 +123,10 @@ def tell_profiles(scene: Any, grid: Grid, contact: ContactSolution, context: Con
         tell(context, [CONTACT_BENT(angle=math.degrees(turned), reason="bent")])
 
 
-def _tell_second(
-    scene: Any, grid: Grid, contact: ContactSolution, first: ContactPoint, other: ContactPoint, context: Context
-) -> None:
+def _second_contact(
+    scene: Any, grid: Grid, contact: ContactSolution, first: ContactPoint, other: ContactPoint
+) -> Note | None:
+    """Return the note on a further contact point; None of one that stays far open."""
     across, along = other.y - first.y, other.z - first.z
     beside = math.hypot(across, along)
     turned = abs(other.angle - first.angle)
@@ -141,11 +144,10 @@ def _tell_second(
         "closing": max(closing, 0.0),
     }
     if inside:
-        tell(context, [SECOND_CONTACT(reason="inclined" if turned > INCLINED and not conforming else "inside", **told)])
-    elif closing > other.gap:
-        tell(context, [SECOND_CONTACT(reason="left-out", **told)])
-    elif other.gap < NEAR:
-        tell(context, [SECOND_CONTACT(reason="open", **told)])
+        return SECOND_CONTACT(reason="inclined" if turned > INCLINED and not conforming else "inside", **told)
+    if closing > other.gap:
+        return SECOND_CONTACT(reason="left-out", **told)
+    return SECOND_CONTACT(reason="open", **told) if other.gap < NEAR else None
 
 
 def _rows(scene: Any, placed: WheelOnRail, y: FloatArray) -> Rows:
