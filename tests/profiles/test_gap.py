@@ -8,7 +8,7 @@ from test_placement import circle
 
 from bem.grid import Grid
 from bem.profiles import Profile, WheelOnRail, catalogued_profile, gap_over_tangent_plane
-from bem.profiles.gap import equivalent_radii
+from bem.profiles.gap import equivalent_radii, gap_along_rail, rows_on_rail
 
 
 def torus_height(x, y, lateral, radius):
@@ -88,3 +88,18 @@ def test_a_yawed_wheel_turns_its_gap():
     x, y = grid.x[:, None], grid.y[None, :]
     ahead, across = x * math.cos(yaw) + y * math.sin(yaw), -x * math.sin(yaw) + y * math.cos(yaw)
     assert np.allclose(gap, torus_height(ahead, across, 0.3, 0.46), atol=1e-11)
+
+
+def test_along_the_rail_the_gap_is_measured_along_its_own_normals():
+    """A wheel of 13 mm in a groove of 15 mm: distance from the groove to the circle along the groove's radius."""
+    rail, wheel = circle(0.015, (0.0, -0.015), side=1), circle(0.013, (0.0, -0.013), side=1)
+    placed = WheelOnRail(wheel, rail, 0.46)
+    point = placed.contact_points[0]
+    grid = Grid((1, 31), (1e-3, 0.4e-3))
+    angle = grid.y / 0.015
+    # from the centre of the wheel, 2 mm below that of the groove: |r e - c| = 13 mm on the ray e
+    ray = 2e-3 * np.cos(angle) + np.sqrt(13e-3**2 - (2e-3 * np.sin(angle)) ** 2)
+    assert np.allclose(gap_along_rail(placed, point, grid)[0], 0.015 - ray, atol=2e-11)
+    rows = rows_on_rail(placed, point, grid.y)
+    assert np.allclose(rows.angle, -angle, atol=1e-8)
+    assert np.allclose((rows.y, rows.z), (0.015 * np.sin(angle), 0.015 * (np.cos(angle) - 1)), atol=1e-8)

@@ -79,6 +79,23 @@ def test_further_points_are_told_by_their_gap():
     assert all(one.gap <= two.gap for one, two in itertools.pairwise(points))
 
 
+def test_the_gap_of_a_further_point_is_the_distance_of_the_profiles():
+    """S1002 shifted by 1.5 mm: at the flange root, inclined by 16 degrees, the nearest points of both curves."""
+    placed = WheelOnRail(
+        catalogued_profile("s1002"), catalogued_profile("60e1").turned(-math.atan(1 / 40)), 0.46, lateral=1.5e-3
+    )
+    first, second = placed.contact_points[:2]
+    assert math.degrees(second.angle) == pytest.approx(-15.65, abs=0.05)
+    wheel = second.wheel_parameter + np.linspace(-2e-3, 2e-3, 801)
+    rail = second.rail_parameter + np.linspace(-2e-3, 2e-3, 801)
+    _, y, z = placed.wheel_surface(wheel, np.zeros_like(wheel))
+    _, _, here = placed.wheel_surface(np.array([first.wheel_parameter]), np.zeros(1))
+    across, down = placed.rail.at(rail)
+    away = np.hypot(y[:, None] - across, z[:, None] + first.z - here - down)
+    assert second.gap == pytest.approx(float(away.min()), rel=2e-3)
+    assert second.gap == pytest.approx(107e-6, rel=0.01)
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
