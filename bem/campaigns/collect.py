@@ -63,7 +63,29 @@ def summary_of(campaign: Campaign, records: Sequence[Record | None]) -> dict[str
     """Return the figures of all cases, None where a case has no record; at least one has."""
     summary = _summary(campaign, described(campaign.kind.record), records)
     own = campaign.kind.summarise(campaign.scene, campaign.axes, records) | told_in_summary(campaign, records)
-    return {**summary, **own}
+    return {**summary, **own, **_input_shares(campaign, records)}
+
+
+def _input_shares(campaign: Campaign, records: Sequence[Record | None]) -> dict[str, Any]:
+    """Return the share of each uncertain input in the variance of the headline figures, by figure and key; nothing with
+    fewer than two inputs.
+
+    Of figures with several values the variances are summed, so that the largest count most.
+    """
+    found: dict[str, dict[str, float]] = {}
+    for name, figure in described(campaign.kind.record).items():
+        if not isinstance(figure, Figure) or not figure.headline:
+            continue
+        sums: dict[str, float] = {}
+        for record in records:
+            changes = {} if record is None else record.input_changes
+            if all(name in change for change in changes.values()):
+                for key, change in changes.items():
+                    sums[key] = sums.get(key, 0.0) + float(np.nansum(np.square(np.asarray(change[name], np.float64))))
+        total = sum(sums.values())
+        if len(sums) > 1 and total > 0:
+            found[figure.key(name)] = {key: part / total for key, part in sums.items()}
+    return {"input_shares": found} if found else {}
 
 
 def outcome_of(scene: SceneModel, record: Record) -> Outcome:

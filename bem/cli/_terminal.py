@@ -402,7 +402,7 @@ def show_remarks(notes: Sequence[str]) -> None:
 def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     """The figures of a run."""
     from bem.plots.report import summary_rows
-    from bem.plots.tables import is_list
+    from bem.plots.tables import input_share_tables, is_list
 
     known = [name for name in headline if summary.get(name) is not None]
     rows = summary_rows(summary, [name for name in known if not is_list(summary[name])])
@@ -413,6 +413,8 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     rows.append(("time", f"{summary['wall_time_s']:.1f} s"))
     table(("figure", "value"), rows, title=f"{summary['scene']} ({summary['kind']})")
     print_lists(summary, known)
+    for item in input_share_tables(summary):
+        table(item.head, item.rows, title=item.title, right=range(1, len(item.head)))
 
 
 def print_lists(summary: Mapping[str, Any], names: Sequence[str]) -> None:

@@ -186,6 +186,17 @@ def _list_all() -> None:
     print("next: bem new KIND writes a commented file to start from; `bem scenes` lists finished scenes")
 
 
+_SCENES_MEANT = {
+    "adhesion": "adhesive-sphere",
+    "adhesive": "adhesive-sphere",
+    "jkr": "adhesive-sphere",
+    "hysteresis": "sliding-hysteresis",
+    "viscoelastic": "viscoelastic-ball",
+    "viscoelasticity": "viscoelastic-ball",
+}
+"""Words for what a kind can do, and the built-in scenes that show it."""
+
+
 def _check_kind(word: str) -> None:
     """Refuse a word that is no kind, element or built-in scene, listing kinds and elements.
 
@@ -205,8 +216,10 @@ def _check_kind(word: str) -> None:
     kinds = kind_names()
     if word.endswith(".toml"):
         raise InputError(f"{word}: the kind is missing; allowed: bem new KIND {word}, such as bem new contact {word}")
+    scene = _SCENES_MEANT.get(word.lower())
+    hint = f' - did you mean the built-in scene "{scene}"?' if scene in library() else ""
     raise InputError(
         f'"{word}": neither a kind of scene nor a machine element'
-        f"{did_you_mean(word, [*kinds, *TITLES, *kind_aliases(), *library()])}; allowed: kinds and elements that "
-        f"`bem new` lists ({', '.join([*kinds, *TITLES])}), or a scene of `bem scenes`"
+        f"{hint or did_you_mean(word, [*kinds, *TITLES, *kind_aliases(), *library()])}; allowed: kinds and elements "
+        f"that `bem new` lists ({', '.join([*kinds, *TITLES])}), or a scene of `bem scenes`"
     )

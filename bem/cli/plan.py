@@ -25,14 +25,15 @@ def register(app: typer.Typer) -> None:
           bem plan rough-contact
           bem plan rough-contact --set grid.shape=8192
         """
-        from bem.cli._terminal import print_text, show_warnings
-        from bem.cli.run import running_in_is_cold
+        from bem.cli._terminal import print_text, show_remarks, show_warnings
+        from bem.cli.run import running_in_is_cold, tell_changed_size
         from bem.compiled import SECONDS, WEAR_SECONDS, is_cold
         from bem.runs import plan_scene
         from bem.scenes.checks import examine, scene_warnings
         from bem.scenes.planner import available_memory, show_bytes
 
         resolved, planned = plan_scene(scene, set_ or (), asked(accuracy))
+        tell_changed_size(scene, set_ or ())
         facts = examine(resolved)
         warnings = scene_warnings(facts)
         print_text(
@@ -40,7 +41,8 @@ def register(app: typer.Typer) -> None:
         )
         _show_contacts(facts)
         _show_steps(planned)
-        show_warnings(warnings, remarks="in the report of the run")
+        show_warnings(warnings)
+        show_remarks(warnings)
         seconds = SECONDS * is_cold() + WEAR_SECONDS * running_in_is_cold(resolved)
         if seconds > 0:
             print_text(

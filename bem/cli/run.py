@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from bem.cli._quantity import named_folder
+from bem.quantities import si
 
 
 def complete_scene(incomplete: str) -> list[str]:
@@ -105,6 +106,36 @@ def prepare_first_run(scene: str, settings: Sequence[str], accuracy: str | dict[
         typer.echo("bem: compiling loops, once for this installation (`bem warm-up` compiles all of them)", err=True)
 
 
+def tell_changed_size(source: str, settings: Sequence[str]) -> None:
+    """Say that a grid of other cells has another size, where --set changes the cells of a scene that gives the spacing,
+    as those of runs do."""
+    from bem.runs import plan_scene
+    from bem.scenes.build import grid_of
+
+    keys = [setting.partition("=")[0].strip() for setting in settings]
+    if not any(key.startswith("grid.shape") for key in keys) or any(
+        key.startswith(("grid.spacing", "grid.lengths", "grid=")) or key == "grid" for key in keys
+    ):
+        return
+    scene: Any = plan_scene(source, settings)[0]
+    if getattr(scene, "grid", None) is None:
+        return
+    rest = [setting for setting, key in zip(settings, keys, strict=True) if not key.startswith("grid.shape")]
+    other: Any = plan_scene(source, rest)[0]
+    before, after = grid_of(other.grid).lengths, grid_of(scene.grid).lengths
+    if any(abs(new - old) > _SAME_SIZE * old for new, old in zip(after, before, strict=True)):
+        sizes = [" x ".join(si(side, "m") for side in lengths) for lengths in (before, after)]
+        typer.echo(
+            f"bem: note: the scene gives grid.spacing, which stays: the grid's size changes from {sizes[0]} to "
+            f"{sizes[1]}. To refine at the same size set grid.spacing instead, or grid.lengths with the cells.",
+            err=True,
+        )
+
+
+_SAME_SIZE = 0.02
+"""Relative difference of sides up to which a grid has the same size."""
+
+
 def register(app: typer.Typer) -> None:
     """Add the command."""
     app.command()(run)
@@ -164,6 +195,7 @@ def run(
         if resume and out is None and (Path(scene) / "scene.toml").is_file():
             out = Path(scene)
         prepare_first_run(scene, set_ or (), asked(accuracy))
+        tell_changed_size(scene, set_ or ())
         with resumable() as terminal:
             done = run_scene(
                 scene,

@@ -165,7 +165,7 @@ YIELDS = define(
             "The highest von Mises stress over the yield stress is {ratios}. The material yields where it is above 1; "
             "elastic stresses there are too high.",
             "Lower load or friction, or take another layer.",
-            headline="The coated body yields first in {first}.",
+            headline="{first} yields first.",
         ),
     },
 )
@@ -296,7 +296,7 @@ TRIBOFILM_ON_COATING = define(
         ),
         "hardness": Reason(
             "film.hardness is {film:si Pa} at zero thickness; the coating, {material}, has {hardness:si Pa}.",
-            "Take the coating's hardness as the value at zero thickness.",
+            "Set {key} so that it is {hardness:si Pa} at zero thickness.",
             headline="The hardness of a thin film is not that of the coating.",
         ),
         "heat": Reason(
@@ -318,6 +318,13 @@ RESIDUAL_STRESS = define(
     "Stresses below the surface include residual stresses of layers.",
     "The {body} body has {found}, which von Mises stress, tension, yielded volume and criteria of stress include. The "
     "contact pressure does not depend on it: it causes no traction across the surface or an interface.",
+)
+RESIDUAL_STRESS_UNUSUAL = define(
+    "residual-stress-unusual",
+    CAUTION,
+    "The residual stress is not a usual one of this coating.",
+    "Layer {number} ({material}) has {stress:si Pa}; usual are {low:si Pa} to {high:si Pa}, negative in compression.",
+    "Check the sign of residual_stress, and the source of the value.",
 )
 PARTICLES_OF_MESH = define(
     "particles-of-mesh",

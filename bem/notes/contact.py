@@ -185,6 +185,27 @@ RELAXATION_EXTRAPOLATED = define(
         ),
     },
 )
+ROLLING_UNRESOLVED = define(
+    "rolling-unresolved",
+    CAUTION,
+    "The cells do not resolve the rolling.",
+    "The error bar of {figure} is {error:.0f} % of it.",
+    "Take smaller cells (grid.shape), or more creepage: where nearly everything sticks little slips.",
+)
+CREEPAGE_LARGE = define(
+    "creepage-large",
+    CAUTION,
+    "The creepage is large: is it given in per cent?",
+    "{value:g} is {share:g} %, at which everything slides.",
+    "Write {meant:g}, or a text with % at its end, for {value:g} %.",
+)
+LINE_APPROACH = define(
+    "line-approach",
+    CAUTION,
+    "The approach of a line contact has no absolute zero.",
+    "It depends on the depth of the bodies, here on the length of the grid; only differences of approaches at one grid"
+    " have a meaning.",
+)
 MEAN_GAP_NOT_MET = define(
     "mean-gap-not-met",
     CAUTION,

@@ -113,7 +113,7 @@ def draw(
 
     whole = _seen(run)
     run = _for(whole, kind)
-    with style(), named_axes(run.dataset), collecting():
+    with style(), named_axes(run.dataset, run.scene), collecting():
         # at the dots of the file from the start: sizes of texts that the layout asks for serve the picture too
         figure = Figure(figsize=size or kind.size, dpi=DOTS, layout="constrained")
         FigureCanvasAgg(figure)

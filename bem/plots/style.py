@@ -86,12 +86,17 @@ def along_x() -> str:
 
 
 @contextmanager
-def named_axes(dataset: Any) -> Iterator[None]:
+def named_axes(dataset: Any, scene: Any = None) -> Iterator[None]:
     """Within it, a map's first axis is called what the record of the results calls x: "x, along rolling" is "x,
-    rolling"."""
+    rolling". Bodies that relax may roll over each other where the record says that they slide.
+
+    scene : plain table of the run's scene; None where unknown.
+    """
     words = str(dataset["x"].attrs.get("long_name", "")) if "x" in dataset else ""
     if ", along " in words and ", along the " not in words:
         words = words.replace(", along ", ", ")
+    if ((scene or {}).get("contact") or {}).get("rolling_speed") is not None:
+        words = "x, rolling"
     token = _ALONG.set(words if words.startswith("x") else _ALONG.get())
     try:
         yield

@@ -18,7 +18,7 @@ _TELLING = tuple(f"{name}_{unit}" for name, unit in TELLING.items())
 """Figures that say which row it is; texts (a variant's name) do so too."""
 ABOUT_THE_RUN = (
     *("scene", "kind", "version", "seed", "status", "where", "wall_time_s", "notes", "outside_model", "over"),
-    *("accuracy", "seconds_by_stage", "seconds_by_level"),
+    *("accuracy", "input_shares", "seconds_by_stage", "seconds_by_level"),
 )
 """Keys of a summary that hold no figure. A list of these, such as the notes, has no entry for each case."""
 MOST_COLUMNS = 7
@@ -43,6 +43,7 @@ class FigureTable:
 def name_and_unit(name: str) -> tuple[str, str]:
     """`mean_contact_pressure_Pa` -> `mean contact pressure`, `Pa`."""
     words, unit = unit_of(name)
+    unit = _OWN_UNITS.get(words, unit)
     return _LABELS.get(words, " ".join(words.split("_")).replace("von mises", "von Mises")), with_signs(unit)
 
 
@@ -58,6 +59,8 @@ _LABELS = {
     "lowest_load": "pull-off force (lowest load)",
     "jkr_lowest_load": "pull-off force by JKR (soft spheres)",
     "dmt_lowest_load": "pull-off force by DMT (stiff spheres)",
+    "friction_work": "friction work per distance rolled",
+    "resolved_work": "share of the friction work in its map",
     "Sq": "Sq of both surfaces",
     "Sq_initial": "Sq of the contact region, initial",
     "Sq_final": "Sq of the contact region, final",
@@ -94,6 +97,8 @@ _LABELS = {
     "lambda_ratio_mixed": "lambda ratio (under the film's load)",
 }
 """Labels that say the region or the definition of a figure, by its name without the unit."""
+_OWN_UNITS = {"friction_work": "J/m"}
+"""Units that say more than those of the keys: newtons of work per distance are joules per metre."""
 
 
 def is_second_name(name: str, among: Mapping[str, Any]) -> bool:
@@ -337,6 +342,21 @@ def summary_of_points(
         states += ["failed" if given is None else str(summary.get("status", ""))] * count
     told = {"result": states} if failed or any(state != "converged" for state in states) else {}
     return {"over": dict(over), **found, **told}
+
+
+def input_share_tables(summary: Mapping[str, Any]) -> list[FigureTable]:
+    """Return the table of which uncertain input matters: its share of the variance of the headline figures by inputs,
+    with the input that matters most first; none without two inputs."""
+    shares: Mapping[str, Mapping[str, float]] = summary.get("input_shares") or {}
+    keys = list(dict.fromkeys(key for each in shares.values() for key in each))
+    if not keys:
+        return []
+    keys.sort(key=lambda key: -max(each.get(key, 0.0) for each in shares.values()))
+    rows = tuple(
+        (name_and_unit(name)[0], *(f"{100 * each[key]:.3g} %" if key in each else "-" for key in keys))
+        for name, each in shares.items()
+    )
+    return [FigureTable("Share of each uncertain input in the variance by inputs", ("figure", *keys), rows)]
 
 
 def accuracy_tables(summary: Mapping[str, Any]) -> list[FigureTable]:

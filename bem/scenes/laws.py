@@ -106,7 +106,8 @@ class LawKey:
             value = {"kind": value}
         if not isinstance(value, dict):
             raise problem("not a law", f"a name, or a table with kind and parameters; kinds: {', '.join(self.names())}")
-        if "kind" not in value and self.usual:
+        named = "kind" in value
+        if not named and self.usual:
             value = {"kind": self.usual, **value}
         if "kind" not in value:
             raise problem("kind is missing", "kind = " + ", ".join(f'"{name}"' for name in self.names()))
@@ -131,7 +132,7 @@ class LawKey:
         if missing:
             example = ", ".join([f'kind = "{law.name}"', *(f"{key} = ..." for key in missing)])
             raise problem(
-                f"the {law.name} law without {' and '.join(missing)}",
+                f"the {law.name} law{'' if named else ', taken as no kind is given,'} without {' and '.join(missing)}",
                 f"{' and '.join(missing)} with it, as in {{ {example} }}",
             )
         try:

@@ -43,6 +43,9 @@ def _keys_of_numbers(model: BaseModel, before: str = "") -> Iterator[str]:
         value = getattr(model, name)
         if isinstance(value, BaseModel):
             yield from _keys_of_numbers(value, f"{before}{name}.")
+        elif isinstance(value, list | tuple) and value and all(isinstance(one, BaseModel) for one in value):
+            for number, one in enumerate(value):
+                yield from _keys_of_numbers(one, f"{before}{name}[{number}].")
         elif _numbers(value):
             yield before + name
 
@@ -61,9 +64,12 @@ def deviation(scene: BaseModel, key: str, given: str | float, unit: str) -> floa
     if key in _HARDNESSES:
         raise InputError(f'uncertain."{key}": the model takes contact.hardness; allowed: "contact.hardness"')
     if not numbers:
+        other = key.replace(".layer.", ".layers[0].") if ".layer." in key else key.replace(".layers[0].", ".layer.")
+        found_there = other != key and _numbers(value_of(scene, other))
+        hint = f' - did you mean "{other}"?' if found_there else did_you_mean(key, _keys_of_numbers(scene))
         raise InputError(
             f'uncertain."{key}": no number is set there; allowed: a dotted key of the scene whose value is set and has '
-            f"decimals, such as contact.load{did_you_mean(key, _keys_of_numbers(scene))}"
+            f"decimals, such as contact.load{hint}"
         )
     text = str(given).strip()
     try:

@@ -25,6 +25,25 @@ REMOVED_KEYS = {
     '"ISO VG 32", "water-glycol 46" or "water", or viscosity of a liquid of your own',
 }
 """Keys that scenes of earlier versions had or that users expect, and what to write in their place."""
+_INSTEAD = {
+    "coating": (
+        "layer",
+        'layer = { material = "dlc", thickness = "1 um" }, or layers = [{ ... }, { ... }], outermost first',
+    ),
+    "diameter": ("radius", "radius, half of the diameter"),
+}
+"""Keys that users expect: a key of the same table that stands in their place, and what to write."""
+_OTHER_NAMES = {
+    "chromium": "Cr",
+    "chrome": "Cr",
+    "chromium-nitride": "CrN",
+    "titanium-nitride": "TiN",
+    "diamond-like-carbon": "dlc",
+}
+"""Materials of the catalogue by names that it does not have."""
+_PULLED = (
+    "; an adhesive contact is pulled by negative loads in contact.load_path, or by contact.approach_path and approach"
+)
 Model = TypeVar("Model", bound=BaseModel)
 
 
@@ -87,6 +106,8 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         parent, _, last = key.rpartition(".")
         names = sorted(_names_at(mistake["loc"][:-1], data, model))
         place = f"in {parent}" if parent else "at the top of the scene"
+        if (written := _INSTEAD.get(last)) is not None and written[0] in names:
+            return f"{key}: unknown key; write {written[1]}"
         hint = nearest(last, names) or _elsewhere(last, parent, model)
         return f"{key}: unknown key{hint}; allowed {place}: {', '.join(names)}"
     if kind == "missing":
@@ -105,16 +126,25 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         return f"{key}.kind = {show(found)}: not allowed{nearest(str(found), names)}; allowed: {listed}"
     if kind == "unknown_name":
         found, names = context["found"], context["names"]
-        return f'{key} = "{found}": {mistake["msg"]}{nearest(found, names)}; allowed: {", ".join(names)}'
+        hint = f' - did you mean "{_OTHER_NAMES[found.lower()]}"?' if found.lower() in _OTHER_NAMES else ""
+        return f'{key} = "{found}": {mistake["msg"]}{hint or nearest(found, names)}; allowed: {", ".join(names)}'
     if kind in ("model_type", "model_attributes_type", "dict_type"):
         return f"{where}: not a table; allowed: a table with {', '.join(sorted(fields_of_table(annotation)))}"
     if kind == "quantity":
         return f"{where}: {mistake['msg']}"
     if kind == "scene":
         return f"{key or 'scene'}{_scalar(value)}: {mistake['msg']}"
+    if kind in ("too_long", "too_short") and "actual_length" in context:
+        most, least = context.get("max_length"), context.get("min_length")
+        many = f"{least} or more" if most is None else f"{most} or fewer"
+        if str(context.get("field_type")) == "Tuple":
+            many = str(least if most is None else most)
+        return f"{where}: {context['actual_length']} values; allowed: {many}{allowed.replace('; allowed:', ', each')}"
     text = str(mistake["msg"]).replace("Input should be", "must be").replace("Input should have", "must have")
     if kind.startswith(("greater_than", "less_than")) and dimension and dimension.unit:
         text += f" {dimension.unit}"
+    if kind.startswith("greater_than") and key in ("contact.load", "contact.mean_pressure"):
+        allowed += _PULLED * ("load_path" in _names_at(mistake["loc"][:-1], data, model))
     return f"{where}: {text}{allowed}"
 
 

@@ -11,7 +11,7 @@ from bem.campaigns import campaign_of, compute
 from bem.campaigns.uncertain import with_inputs
 from bem.errors import Status
 from bem.plots.report import with_error
-from bem.plots.tables import figure_tables
+from bem.plots.tables import figure_tables, input_share_tables
 from bem.scenes import get_kind
 from bem.scenes.context import PlainContext
 from bem.scenes.uncertain import moved
@@ -38,6 +38,20 @@ FIGURES = ("contact_area_fraction", "max_pressure", "mean_gap", "approach", "mea
 
 def outcome_of(table):
     return compute(campaign_of(load_scene(table))).outcome
+
+
+def test_the_share_of_each_input_in_a_figures_variance_is_shown():
+    found = outcome_of(CONTACT | {"uncertain": {key: KEYS[key] for key in ("contact.load", "shape.radius")}})
+    shares = found.summary["input_shares"]["max_pressure_Pa"]
+    changes = {
+        key: float(found.variables[f"max_pressure_change_{key.replace('.', '_')}"].values) ** 2 for key in shares
+    }
+    for key, share in shares.items():
+        assert share == pytest.approx(changes[key] / sum(changes.values()), rel=1e-12)
+    (table,) = input_share_tables(found.summary)
+    assert set(table.head) == {"figure", "contact.load", "shape.radius"}
+    alone = outcome_of(CONTACT | {"uncertain": {"contact.load": "1 %"}})
+    assert "input_shares" not in alone.summary
 
 
 def test_derivatives_of_a_contact_are_those_of_runs_close_by():

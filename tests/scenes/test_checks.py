@@ -234,6 +234,10 @@ CASES = {
         (("film-start-stop", 'oil={ grade = "ISO VG 680", temperature = "-30 C" }'), "too thick to flow"),
         ("film-start-stop", 'oil={ grade = "ISO VG 68", temperature = "60 C" }'),
     ),
+    "creepage_of_a_unit": (
+        (("rolling-creepage", "over=", "roll.creepage=0.3"), "0.3 is 30 %"),
+        ("rolling-creepage", "over=", "roll.creepage=0.003"),
+    ),
     "tribofilm_on_a_coating": (
         (("tribofilm-ball", 'lower.layer={material="dlc",thickness="2 um"}'), "Growth constants come from steel"),
         "tribofilm-ball",
@@ -522,6 +526,11 @@ MIRRORED = with_(
 )
 COATED_BALL = with_(library()["tribofilm-ball"], lower__layer={"material": "dlc", "thickness": "100 nm"})
 OUTCOMES = {
+    "rolling_of_large_errors": (
+        "rolling-creepage",
+        (Outcome({"friction_work_N": [1.0, 2.0], "friction_work_N_error": [2.2, 0.1]}, {}), "220 % of it"),
+        Outcome({"friction_work_N": [1.0, 0.0], "friction_work_N_error": [0.4, 0.1]}, {}),
+    ),
     "coating_taken_by_the_film": (COATED_BALL, (film_outcome(120.0), "the outermost coating, dlc"), film_outcome(80.0)),
     "highest_pressure_at_a_seam": (
         MIRRORED,

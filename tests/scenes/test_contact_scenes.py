@@ -14,8 +14,8 @@ from bem.grid import Grid
 from bem.materials import Body, Layer, Material, contact_modulus
 from bem.notes import Level, has_code
 from bem.notes.accuracy import ERROR_BARS_LOST, NoBar
-from bem.notes.checks import DEPTHS_MISS_STRESS, RESIDUAL_STRESS, YIELDS
-from bem.notes.contact import ADHESION_ENDS_APART, ADHESIVE_ZONE_UNRESOLVED, CONTACT_UNRESOLVED
+from bem.notes.checks import DEPTHS_MISS_STRESS, RESIDUAL_STRESS, RESIDUAL_STRESS_UNUSUAL, YIELDS
+from bem.notes.contact import ADHESION_ENDS_APART, ADHESIVE_ZONE_UNRESOLVED, CONTACT_UNRESOLVED, LINE_APPROACH
 from bem.reference_solutions.hertz import cylinder_contact, sphere_contact
 from bem.reference_solutions.westergaard import crossed_full_contact_pressure
 from bem.relaxation import PronySeries
@@ -321,6 +321,19 @@ def test_a_residual_stress_of_a_layer_adds_to_stresses_and_is_said():
     assert (thinner.layers[0].thickness, thinner.layers[0].residual_stress) == (1e-6, -2e9)
 
 
+def test_a_residual_stress_that_is_no_usual_one_of_the_coating_is_a_caution():
+    for stress, told in (("2 GPa", True), ("-2 GPa", False)):
+        scene, _ = plan_scene("coated-sphere", [f'lower.layer.residual_stress="{stress}"'])
+        assert has_code(scene_warnings(examine(scene)), RESIDUAL_STRESS_UNUSUAL) is told
+
+
+def test_a_negative_approach_of_a_line_contact_says_that_it_has_no_zero():
+    _, outcome, context = run(
+        "sliding-hysteresis", ["over=", "contact.sliding_speed=", 'contact.rolling_speed="1 m/s"']
+    )
+    assert has_code(context.notes, LINE_APPROACH) is (outcome.summary["approach_m"] < 0)
+
+
 def test_a_residual_stress_beyond_the_yield_stress_is_refused():
     with pytest.raises(InputError, match=r"lower.layer: residual_stress -9e\+09 Pa, beyond the yield stress"):
         run("coated-sphere", ["lower.layer.residual_stress=-9 GPa"])
@@ -365,13 +378,16 @@ def test_the_caution_of_a_yielding_coat_names_the_layer_that_yields_first():
     facts = examine(scene)
     found = list(elastic_stress_above_yield(facts, outcome))
     assert [note.code for note in found] == [YIELDS.code]
-    assert found[0].headline == "The coated body yields first in tribofilm"
-    assert f"{ratio:.2g} in tribofilm, {outcome.summary['substrate_yield_ratio']:.2g} in the body below" in found[0]
+    assert found[0].headline == "tribofilm yields first"
+    assert (
+        f"{ratio:.2g} in tribofilm, {outcome.summary['substrate_yield_ratio']:.2g} in steel-52100 below the coating"
+        in found[0]
+    )
     below = dataclasses.replace(outcome, summary=outcome.summary | {"layer_yield_ratio": [0.5]})
     below.summary["substrate_yield_ratio"] = 0.6
     assert not list(elastic_stress_above_yield(facts, below))
     below.summary["substrate_yield_ratio"] = 1.6
-    assert "first in the body below" in next(elastic_stress_above_yield(facts, below))
+    assert "steel-52100 below the coating yields first" in next(elastic_stress_above_yield(facts, below))
 
 
 def test_an_elastic_patch_lies_between_the_theories_of_contact_area():

@@ -16,7 +16,7 @@ from bem.kinds.contact.response import solve_response
 from bem.kinds.contact.scene import ContactScene
 from bem.materials import Body, softer_hardness
 from bem.notes import Level, Note, has_code
-from bem.notes.contact import CONTACT_AT_EDGE, CONTACT_UNRESOLVED
+from bem.notes.contact import CONTACT_AT_EDGE, CONTACT_UNRESOLVED, LINE_APPROACH
 from bem.notes.note import without
 from bem.numerics.blocks import deviation
 from bem.scenes import build, wheel_rail
@@ -49,6 +49,8 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         tell(context, response.notes(scene, grid))
     tell(context, _on_few_cells(scene, grid, solution.pressure, _cut_off(scene, grid, solution)))
     tell(context, response.notes_apart())
+    if grid.periodic in ((True, False), (False, True)) and solution.approach < 0 and solution.contact_area > 0:
+        tell(context, (LINE_APPROACH(),))
     wheel_rail.tell_profiles(scene, grid, solution, context)
     below: StressSummary | None = None
     if scene.wanted_depths():

@@ -189,7 +189,13 @@ class ContactScene(StressedScene):
         key = "times" if contact.times else "sliding_speed" if contact.sliding_speed else "rolling_speed"
         timed = bool(contact.times) or self.speeds is not None
         if timed and not relaxing:
-            raise problem(f"contact.{key} without a body that relaxes", "lower.material.relaxation with it")
+            names = [body.material.name for body in (self.lower, self.upper) if body.material is not None]
+            listed = " and ".join(dict.fromkeys(names))
+            raise problem(
+                f"contact.{key} without a body that relaxes: {listed} without relaxation data",
+                "relaxation = { shares = [...], times = [...] } of a material, or one of the catalogue that has it "
+                "(polyisobutylene)",
+            )
         if relaxing and not timed:
             refuse_relaxation(self, "contact.times, contact.sliding_speed or contact.rolling_speed with relaxation")
         if timed and (self.lower.stack or self.upper.stack):

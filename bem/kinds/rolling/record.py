@@ -18,8 +18,10 @@ class RollingRecord(StickRecord):
     """A contact that rolls steadily."""
 
     x: Annotated[FloatArray, Series(("x",), "m", "x, along rolling")]
-    force: Annotated[float, Figure("N", "force on the lower body along x", headline=True)]
-    force_across: Annotated[float, Figure("N", "force on the lower body along y", headline=True)]
+    force: Annotated[
+        float, Figure("N", "force on the lower body along x, against rolling where negative", headline=True)
+    ]
+    force_across: Annotated[float, Figure("N", "force on the lower body along +y", headline=True)]
     traction_coefficient: Annotated[float, Figure("", "size of the force over load", headline=True)]
     creepage: Annotated[float, Figure("", "creepage along x", headline=True)]
     creepage_across: Annotated[float, Figure("", "creepage along y")]
@@ -27,8 +29,17 @@ class RollingRecord(StickRecord):
         float | None, Figure("per_m", "spin, with that of the contact angle", optional=True, unjudged=True)
     ] = None
     stick_fraction: Annotated[float, Figure("", "share of the contact that sticks", headline=True)]
-    friction_work: Annotated[float, Figure("N", "energy of friction over the distance rolled, a drag", headline=True)]
-    resolved_work: Annotated[float, Figure("", "share of it that the map of cells shows", unjudged=True)]
+    friction_work: Annotated[
+        float, Figure("N", "energy of friction over the distance rolled: joules per metre, a drag", headline=True)
+    ]
+    resolved_work: Annotated[
+        float,
+        Figure(
+            "",
+            "share of the friction work that its map of cells shows; the rest is below the resolution of the cells",
+            unjudged=True,
+        ),
+    ]
     max_von_mises: Annotated[float | None, Figure("Pa", "maximum von Mises stress", optional=True, headline=True)] = (
         None
     )

@@ -51,6 +51,7 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
     )
     bar = figure.colorbar(shown, ax=axes, pad=0.02)
     bar.set_label(label("von Mises stress", unit))
+    yields: list[str] = []
     for medium in _media(run):
         inside = (depth > medium.top) & (depth <= medium.bottom) | (depth == 0.0) & (medium.top == 0.0)
         if 0 < medium.top < depth[-1]:
@@ -61,7 +62,11 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
             axes.contour(
                 across_x * factor_x, depth[inside] * factor_z, there, levels=[limit], colors="white", linewidths=1.0
             )
-            axes.plot([], [], color="0.6", linewidth=1.0, label=f"yield, {limit * factor:.3g} {unit}")
+            yields.append(
+                f"{limit * factor:.3g} {unit} ({medium.name})" if medium.name else f"{limit * factor:.3g} {unit}"
+            )
+    if yields:  # one line for all: they are drawn alike
+        axes.plot([], [], color="0.6", linewidth=1.0, label=f"white: yield stress, {', '.join(yields)}")
     axes.plot(
         x[ix] * factor_x,
         computed[iz] * factor_z,
@@ -134,11 +139,14 @@ def _stresses_of_layers(run: Any, figure: Figure) -> None:
         for position in range(1, len(tops)):
             axes.axhline(position, color="0.6", linewidth=0.8, linestyle=":")
         if axes is inside:
+            near = False
             for number, medium in enumerate(media):
                 if medium.yield_stress is not None and medium.yield_stress < 1.1 * largest:
                     ends = [number, positions[number + 1]]
                     axes.plot([medium.yield_stress * factor] * 2, ends, color="0.4", linestyle="--", linewidth=1)
-            axes.plot([], [], color="0.4", linestyle="--", linewidth=1, label="yield stress, where near")
+                    near = True
+            if near:
+                axes.plot([], [], color="0.4", linestyle="--", linewidth=1, label="yield stress")
         axes.set_xlabel(label("highest stress", unit))
         axes.set_xlim(0, 1.1 * largest * factor or 1.0)
         axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0))

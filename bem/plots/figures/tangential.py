@@ -53,8 +53,8 @@ def _section(run: Any, figure: Figure) -> None:
 FIGURES = (
     FigureKind(
         "slip-map",
-        "Left: where the surfaces stick and where they slip in the last step; right: how far they slid in all steps, "
-        "or how fast while they roll.",
+        "Left: where the surfaces stick and where they slip, in the last step of a history; right: how far they slid "
+        "in all its steps, or, while they roll, the sliding over the rolling velocity.",
         ("x", "y", "stick_state", "slip"),
         _sticks,
         (8.0, 3.6),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from bem.materials import CATALOGUE
 from bem.notes import Note
 from bem.notes.checks import (
     CAP_NOT_OF_SOFTER,
@@ -11,6 +12,7 @@ from bem.notes.checks import (
     HARDNESS_UNLIKELY,
     LAYER_INCOMPRESSIBLE,
     RESIDUAL_STRESS,
+    RESIDUAL_STRESS_UNUSUAL,
     VISCOELASTIC,
 )
 from bem.notes.note import joined
@@ -86,6 +88,18 @@ def residual_stress_of_layers(facts: Facts) -> Iterator[Note]:
         ]
         if found:
             yield RESIDUAL_STRESS(f"{name}.layers", found=joined(found), body=name)
+        for number, layer in enumerate(body.layers, start=1):
+            entry = CATALOGUE.get(layer.material.name)
+            usual = None if entry is None else entry.residual_stress
+            if usual is not None and layer.residual_stress != 0 and not usual[0] <= layer.residual_stress <= usual[1]:
+                yield RESIDUAL_STRESS_UNUSUAL(
+                    f"{name}.layers",
+                    number=number,
+                    material=layer.material.name,
+                    stress=layer.residual_stress,
+                    low=usual[0],
+                    high=usual[1],
+                )
 
 
 @scene_check

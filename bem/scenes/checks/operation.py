@@ -7,10 +7,12 @@ from collections.abc import Iterator
 
 from bem.notes import Level, Note
 from bem.notes.checks import GROWTH_WITHOUT_BARRIER, TRIBOFILM_ON_COATING
+from bem.notes.contact import CREEPAGE_LARGE
 from bem.plausibility import ELECTRON_VOLT
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.registry import outcome_check, scene_check
 from bem.scenes.checks.words import numbers
+from bem.scenes.common import SmoothSurface
 from bem.scenes.context import Outcome
 
 _LIKE = 1.5
@@ -45,6 +47,20 @@ def growth_without_a_barrier(facts: Facts) -> Iterator[Note]:
 
 
 @scene_check
+def creepage_of_a_unit(facts: Facts) -> Iterator[Note]:
+    """Creepage is a ratio: rolling contacts slide altogether from some 1 %, and 0.3 is 30 %, not 0.3 %."""
+    roll = getattr(facts.scene, "roll", None)
+    for name in ("creepage", "creepage_across"):
+        value = getattr(roll, name, 0.0)
+        if abs(value) > _MOST_CREEPAGE:
+            yield CREEPAGE_LARGE(f"roll.{name}", value=value, share=100 * value, meant=value / 100)
+
+
+_MOST_CREEPAGE = 0.1
+"""Creepage above which it may be one in per cent: braked and driven wheels that spin."""
+
+
+@scene_check
 def tribofilm_on_a_coating(facts: Facts) -> Iterator[Note]:
     """Additives made for steel act otherwise on coatings (Neville, Morina, Haque & Voong, Tribol. Int. 40 (2007)
     1680)."""
@@ -56,10 +72,22 @@ def tribofilm_on_a_coating(facts: Facts) -> Iterator[Note]:
     coating, temperature = body.surface_material, scene.rubbing.temperatures[0]
     yield TRIBOFILM_ON_COATING("lower.layers", material=coating.name, reason="growth")
     bare, own = scene.film.hardness(0.0, temperature), coating.indentation_hardness
-    if own is not None and not 1 / _LIKE < bare / own < _LIKE:
-        yield TRIBOFILM_ON_COATING("film.hardness", film=bare, material=coating.name, hardness=own, reason="hardness")
+    if own is not None and not 1 / _LIKE < bare / own < _LIKE and _pressures_reach(facts, _NEAR * min(bare, own)):
+        key = "film.hardness.substrate" if scene.film.hardness.name == "fading_substrate" else "film.hardness"
+        yield TRIBOFILM_ON_COATING(key, film=bare, material=coating.name, hardness=own, key=key, reason="hardness")
     if scene.rubbing.speeds is not None:
         yield TRIBOFILM_ON_COATING("rubbing.speeds", thickness=body.interfaces[-1], reason="heat")
+
+
+_NEAR = 0.5
+"""Hertz' pressure over a hardness from which the hardness may limit the pressure."""
+
+
+def _pressures_reach(facts: Facts, limit: float) -> bool:
+    """Return True if a pressure may reach a limit [Pa]: Hertz' maximum does, or roughness makes peaks of its own."""
+    smooth = [case.smooth.maximum_pressure for case in facts.cases if case.smooth is not None]
+    rough = any(not isinstance(table, SmoothSurface) for case in facts.cases for table in case.surfaces.values())
+    return rough or not smooth or max(smooth) > limit
 
 
 @outcome_check

@@ -21,7 +21,7 @@ from bem.notes.checks import (
     STRAIN_LARGE,
     YIELDS,
 )
-from bem.notes.contact import CONTACT_AT_EDGE
+from bem.notes.contact import CONTACT_AT_EDGE, ROLLING_UNRESOLVED
 from bem.notes.note import joined, percent
 from bem.quantities import si
 from bem.scenes.build import AnySurface
@@ -252,7 +252,7 @@ def elastic_stress_above_yield(facts: Facts, outcome: Outcome) -> Iterator[Note]
         return
     names, ratios = outcome.summary.get("layer_material"), outcome.summary.get("layer_yield_ratio")
     if names and ratios:
-        beneath = ("the body below", outcome.summary.get("substrate_yield_ratio"))
+        beneath = (_below_the_coating(facts), outcome.summary.get("substrate_yield_ratio"))
         found = [(n, r) for n, r in (*zip(names, ratios, strict=True), beneath) if r is not None and math.isfinite(r)]
         first, ratio = max(found, key=lambda one: one[1], default=("", 0.0))
         if ratio > 1:
@@ -261,6 +261,32 @@ def elastic_stress_above_yield(facts: Facts, outcome: Outcome) -> Iterator[Note]
         return
     if not (list(yield_below_the_surface(facts)) or list(hertz_pressure_above_hardness(facts))):
         yield YIELDS(stress=highest, volume=volume * 1e18, reason="solved")
+
+
+@outcome_check
+def rolling_of_large_errors(facts: Facts, outcome: Outcome) -> Iterator[Note]:
+    """Figures of rolling whose error bars are half of them and more are not resolved."""
+    if not facts.of_kind("rolling"):
+        return
+    large = {}
+    for name in ("traction_coefficient", "friction_work_N"):
+        values, errors = (numbers(outcome.summary.get(key)) for key in (name, f"{name}_error"))
+        ratios = [e / abs(v) for v, e in zip(values, errors, strict=False) if v != 0 and math.isfinite(e)]
+        if ratios and max(ratios) > _LARGE_ERROR:
+            large[name] = max(ratios)
+    if large:
+        name = max(large, key=lambda key: large[key])
+        words = {"traction_coefficient": "the force", "friction_work_N": "the friction work"}[name]
+        yield ROLLING_UNRESOLVED(figure=words, error=100 * large[name])
+
+
+_LARGE_ERROR = 0.5
+"""Relative error bar from which a figure is an order of magnitude only."""
+
+
+def _below_the_coating(facts: Facts) -> str:
+    """Return the material below the layers of the stressed body in words."""
+    return f"{facts.scene.stressed()[0].material.name} below the coating"
 
 
 @outcome_check
