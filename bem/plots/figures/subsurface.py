@@ -66,7 +66,7 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
                 f"{limit * factor:.3g} {unit} ({medium.name})" if medium.name else f"{limit * factor:.3g} {unit}"
             )
     if yields:  # one line for all: they are drawn alike
-        axes.plot([], [], color="0.6", linewidth=1.0, label=f"white: yield stress, {', '.join(yields)}")
+        axes.plot([], [], color="0.6", linewidth=1.0, label="white: yield stress, " + ",\n".join(dict.fromkeys(yields)))
     axes.plot(
         x[ix] * factor_x,
         computed[iz] * factor_z,
