@@ -77,7 +77,7 @@ def _deviations(value: Any) -> dict[str, Any]:
             raise _no_deviations(f"{name} is no standard deviation")
         else:
             found[str(name)] = one
-    return found
+    return {key.replace('"', ""): one for key, one in found.items()}  # --set uncertain."a.b"=... leaves the quotes
 
 
 def _no_deviations(problem: str) -> PydanticCustomError:

@@ -38,3 +38,8 @@ def test_words_for_what_a_kind_can_do_name_the_built_in_scene():
     for word, scene in (("adhesion", "adhesive-sphere"), ("hysteresis", "sliding-hysteresis")):
         with pytest.raises(InputError, match=f'built-in scene "{scene}"'):
             _check_kind(word)
+
+
+def test_quotes_around_a_dotted_key_of_uncertain_are_no_part_of_it():
+    for key in ('uncertain."contact.load"', "uncertain.contact.load"):
+        assert plan_scene("hertz-sphere", [f'{key}="5 %"'])[0].uncertain == {"contact.load": "5 %"}

@@ -11,11 +11,11 @@ from bem.scenes.planner import Plan, Step
 
 ADHESIVE_CONVOLUTIONS, PER_SOLVE = 250.0, 8.0
 """Convolutions of a state with adhesion between rough surfaces, and convolutions of each of its contacts."""
-SPHERE_CONVOLUTIONS = (60.0, 90.0)
+SPHERE_CONVOLUTIONS = (60.0, 130.0)
 """Convolutions of a state of an adhesive sphere: the first, and the second times the square of Tabor's parameter.
 
-Counted on paths of ten states that press and pull off: 65 at 0.3, 146 to 152 at 1, 417 to 1277 at 2 (128 and 256 cells,
-the larger number by one state in which the sphere jumps off), 2060 at 4.
+Counted on paths of ten states that press and pull off: 65 at 0.3, 146 to 152 at 1, 417 to 1277 at 2 (64 to 256 cells a
+side, most in the state in which the sphere jumps off), 2060 to 6060 at 4, where cells did not resolve the zone.
 """
 MOST_TABOR = 6.0
 """Tabor's parameter above which no counts are known."""
