@@ -97,7 +97,7 @@ def test_figures_are_spelt_with_their_errors():
     assert with_error("load_N", summary) == ("load", "1 N")
     assert with_error("count", {"count": 10, "count_error": 7.43})[1] == "10 ± 7.4"
     nanometres = {"thickness_m": 313.3e-9, "thickness_m_error": 1.26e-6}
-    assert with_error("thickness_m", nanometres)[1] == "313.3 (0 to 1570) nm"
+    assert with_error("thickness_m", nanometres)[1] == "0.3133 (0 to 1.57) µm"
     area = {"contact_area_m2": 4.515e-10, "contact_area_m2_error": 1.3e-11}
     assert with_error("contact_area_m2", area)[1] == "451.5 ± 13 µm²"
     volume = {"yielded_volume_m3": 5.697e-16, "yielded_volume_m3_error": 4.1e-17}
