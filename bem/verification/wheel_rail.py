@@ -1,20 +1,24 @@
-"""Wheel and rail: rolling radii of a reference, Hertz' contact between inclined circles, a shaft in a hole."""
+"""Wheel and rail: rolling radii of a reference, Hertz' contact between inclined circles, another program, a shaft in a
+hole."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import brentq
 
 from bem.contact import solve_contact
 from bem.contact.conforming import ConformingBodies, conforming_contact
 from bem.convolution import displacement_operator
 from bem.grid import Grid
-from bem.materials import Body, contact_modulus
+from bem.materials import Body, Material, contact_modulus
 from bem.profiles import Profile, WheelOnRail, catalogued_profile, gap_over_tangent_plane
 from bem.profiles.curved_contact import solve_curved_contact
 from bem.profiles.curved_surface import CurvedSurface
 from bem.reference_solutions.hertz import ellipse_contact
+from bem.tangential import solve_rolling
 from bem.verification.closed_forms import STEEL, curve
 from bem.verification.rows import Curve, Gate
 
@@ -104,6 +108,86 @@ def shaft_in_hole() -> list[Curve]:
     return [curve("pressure, highest", "over half-angle", "Pa", line, np.array(found), highest, 8e-3, reason)]
 
 
+@dataclass(frozen=True)
+class BenchmarkCase:
+    """A position of the right wheel of the Manchester benchmark A-2.2, and what CONTACT finds there; SI units.
+
+    lateral : of the wheelset. yaw, roll : of the wheelset. load : along the normal, as it was found. reference : of the
+    creepages, x and y in the track. creepages, spin : of the rail relative to the wheel. pressure : highest.
+    position : of the normal force, y in the track. forces : on the rail, along x and across it in the tangent plane.
+    """
+
+    lateral: float
+    yaw: float
+    roll: float
+    load: float
+    reference: tuple[float, float]
+    creepages: tuple[float, float]
+    spin: float
+    pressure: float
+    position: float
+    forces: tuple[float, float]
+
+
+BENCHMARK = (
+    BenchmarkCase(4.5e-3, 0.0108, -2.977e-4, 9726.0, (-7.3279e-3, 0.7378905), (1.430e-3, 1.088e-2), 0.2559, 625.5e6,
+                  0.7379185, (-376.8, -2893.0)),
+    BenchmarkCase(5.5e-3, 0.0132, -4.777e-4, 9629.0, (-7.3700e-3, 0.7261169), (4.379e-3, 1.401e-2), 0.7122, 1486e6,
+                  0.7261267, (-850.2, -2759.0)),
+)  # fmt: skip
+"""Cases 10 and 12 of the example `mbench_a22_right` of CONTACT (open source, revision 2447, 4 November 2023), as its
+stored output has them. Wheel S1002 of 460 mm on UIC 60 inclined by 1:40, gauge 1435 mm, flanges 1360 mm apart, cells of
+0.2 mm; shear modulus 82 GPa, Poisson's ratio 0.28, friction 0.3, 10 kN."""
+
+
+def gauge_face(rail: Profile, below: float = 14e-3) -> float:
+    """Return y [m] of the left side of a rail at a depth below its top, where the gauge is measured."""
+    s = rail.samples
+    depth = rail.at(s)[1]
+    top = int(np.argmin(depth))
+    at = brentq(lambda one: float(rail.at(np.array([one]))[1][0]) - depth[top] - below, s[0], s[top])
+    return float(rail.at(np.array([at]))[0][0])
+
+
+def manchester_benchmark() -> list[Curve]:
+    """The right wheel of the benchmark A-2.2, whose contact moves from the tread to the flange root, beside CONTACT."""
+    steel = Material("steel", youngs_modulus=2 * 82e9 * 1.28, poissons_ratio=0.28)
+    bodies = (Body(steel), Body(steel))
+    # the rail of the benchmark: its arcs meet as those of rail A, here inclined by 1:40 in place of 1:20
+    rail = catalogued_profile("en15302-rail-a").turned(math.atan(1 / 20) - math.atan(1 / 40))
+    to_track = 0.7175 - gauge_face(rail)
+    found = []
+    for case in BENCHMARK:
+        # the tape circle, 750 mm to the right of the wheelset's middle and 460 mm below its axis
+        tape = 0.75 * math.cos(case.yaw) - _ROLLING * math.sin(case.roll) + case.lateral
+        placed = WheelOnRail(
+            catalogued_profile("s1002"), rail, _ROLLING, lateral=tape - to_track, yaw=case.yaw, roll=case.roll
+        )
+        point = placed.contact_points[0]
+        grid = Grid((64, 64), (0.2e-3, 0.2e-3))
+        operator = displacement_operator(grid, bodies)
+        contact = solve_contact(gap_over_tangent_plane(placed, point, grid), operator, load=case.load)
+        middle = (point.x - 0.75 * math.sin(case.yaw), point.y + to_track)
+        creepage = (
+            case.creepages[0] - case.spin * (middle[1] - case.reference[1]),
+            case.creepages[1] + case.spin * (middle[0] - case.reference[0]),
+        )
+        rolled = solve_rolling(contact, grid, bodies, friction=0.3, creepage=creepage, spin=case.spin)
+        beside = float(contact.pressure.sum(axis=0) @ grid.y / contact.pressure.sum())
+        found.append((contact.maximum_pressure, middle[1] + point.tangent[0] * beside - 0.75, *rolled.force))
+    here = np.array(found)
+    there = np.array([(case.pressure, case.position - 0.75, *case.forces) for case in BENCHMARK])
+    lateral = np.array([case.lateral for case in BENCHMARK])
+    line = np.column_stack([lateral, 0 * lateral, 0 * lateral])
+    reason = "another program, whose rail differs by up to 10 um where it touches"
+    along, forces = "over lateral displacement", np.repeat(line, 2, axis=0)
+    return [
+        curve("pressure, highest", along, "Pa", line, here[:, 0], there[:, 0], 6e-3, reason),
+        curve("position of the normal force", along, "m", line, here[:, 1], there[:, 1], 1e-3, reason),
+        curve("creep forces", along, "N", forces, here[:, 2:].ravel(), there[:, 2:].ravel(), 3e-3, reason),
+    ]
+
+
 def gates() -> list[Gate]:
     """Gates of wheel and rail profiles."""
     return [
@@ -118,6 +202,12 @@ def gates() -> list[Gate]:
             "closed_forms",
             "Circular profiles in contact at an angle (Hertz).",
             inclined_circles,
+        ),
+        Gate(
+            "wheel-rail-manchester",
+            "closed_forms",
+            "Wheel S1002 on UIC 60, tread and flange root (CONTACT).",
+            manchester_benchmark,
         ),
         Gate(
             "wheel-rail-shaft-in-hole",
