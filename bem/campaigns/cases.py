@@ -9,6 +9,7 @@ from itertools import product
 from typing import Any
 
 from bem.errors import InputError
+from bem.quantities import si
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.kind import Kind, get_kind
@@ -139,6 +140,8 @@ def label_of(axes: Sequence[Axis], place: Sequence[int | None]) -> str:
 
 def _words(axis: Axis, i: int) -> str:
     value, unit = axis.figure.shown(axis.values[i]), axis.figure.written or axis.unit.replace("1", "")
+    if unit == "m" and isinstance(value, float):
+        return f"{axis.name} {si(value, unit, 4)}"
     number = f"{value:.6g}" if isinstance(value, float) else str(value)
     return f"{axis.name} {number} {unit}".rstrip()
 

@@ -29,13 +29,16 @@ def element(
         str,
         typer.Option(
             help="Kind of that scene: traction, point-film (of balls), contact (dry), friction and running-in (mixed "
-            "lubrication), surface-temperature."
+            "lubrication), running-in-life (wear by a rate, of rollers, gears, cams), surface-temperature."
         ),
     ] = "traction",
     at: Annotated[
         str,
-        typer.Option(help="Which contact: worst, thinnest, a mark such as C, a row number; path: all along a path."),
-    ] = "worst",
+        typer.Option(
+            help="Which contact: worst (highest pressure), thinnest (film), a mark such as C, a row number; path: all "
+            "along a path. Without it worst, for friction, running-in and running-in-life thinnest.",
+        ),
+    ] = "",
     path: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Write the path of contact as .csv, for `along` of kind traction."),
@@ -71,8 +74,8 @@ def element(
     """
     from bem.cli._quantity import new_file
     from bem.cli._terminal import print_text, print_written, show_remarks, show_warnings
-    from bem.elements.answer import answer_notes, balance_heat, contact_words, table_columns
-    from bem.elements.element import MIXED, load_element
+    from bem.elements.answer import answer_notes, balance_heat, contact_words, place_words, table_columns
+    from bem.elements.element import LIFE, MIXED, load_element
     from bem.elements.figure import draw_element
     from bem.elements.running import notes as notes_of
     from bem.elements.scene_text import scene_text
@@ -81,6 +84,8 @@ def element(
     from bem.results.atomic import write_text
     from bem.scenes.load import scene_from_table
 
+    if scene is None and kind != "traction":
+        raise InputError(f"--kind {kind}: the kind of a scene; allowed: --scene FILE beside it, which is written")
     if table is not None:
         new_file(table, "--table", (".csv",))
     if path is not None:
@@ -94,7 +99,12 @@ def element(
         return
     found = balance_heat(load_element(file))
     whole = at == "path"
-    chosen = found.worst() if whole else _chosen(found, at)
+    chosen = found.critical() if whole or not at else _chosen(found, at)
+    if not at and scene is not None and kind in (*MIXED, LIFE) and found.model.oil is not None:
+        chosen = found.thinnest_steady()
+        print_text(f"Scene of the contact with the thinnest film, {place_words(found, chosen)}.")
+        if chosen.hertz(found.modulus).maximum_pressure < found.critical().hertz(found.modulus).maximum_pressure:
+            print_text(f"The highest pressure is at {place_words(found, found.critical())}: --at worst.")
     if scene is not None and whole and kind != "traction":
         raise InputError(f"--at path: makes a scene of kind traction; allowed: no --kind, or one place, not {kind}")
     made = None if scene is None else found.path_scene() if whole else found.scene(chosen, kind)
@@ -116,8 +126,10 @@ def element(
     else:
         for sentence in (contact_words(found, chosen), *found.found.geometry):
             print_text(sentence)
+        if kind == "point-film":
+            print_text("The film of kind point-film has no heat; the line film of the answer has it.")
     notes: Sequence[Note] = [*found.notes(), *answer_notes(found, runs), *notes_of(runs)]
-    if made is not None and not runs and kind in MIXED:
+    if made is not None and not runs and kind in (*MIXED, LIFE):
         notes = [note for note in notes if note.code != SURFACES_TOUCH.code]
     show_warnings(notes, remarks="--remarks shows them")
     if remarks:
@@ -139,12 +151,13 @@ def element(
 
 def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...]) -> None:
     """A line for each case."""
-    from bem.cli._terminal import print_written, table
+    from bem.cli._terminal import print_written, show_warnings, table
     from bem.elements.answer import balance_heat
     from bem.elements.cases import changed_keys, columns, load_cases
     from bem.elements.element import csv_text, read_element
     from bem.elements.plain_bush import PlainBushModel
     from bem.errors import InputError
+    from bem.notes.merge import merge
     from bem.results.atomic import write_text
 
     if any(others):
@@ -157,6 +170,7 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
         cases = tuple(balance_heat(one) for one in cases)
         runs = [_solve(one, whole=False) for one in cases]
     found = columns(cases, runs, changed)
+    show_warnings(merge([[note] if (note := one.speed_note()) is not None else [] for one in cases], _rows_of))
     unnamed = [f"{read_element(file)['name']}-{number}" for number in range(1, len(cases) + 1)]
     named = found["case"] != unnamed
     hidden = {*([] if named else ["case"]), *([*_BY_FORMULA, "thinnest_by_formula"] if runs else [])}
@@ -171,6 +185,11 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
     if out is not None:
         write_text(out, csv_text(found))
         print_written(out)
+
+
+def _rows_of(rows: list[int]) -> str:
+    """Return the numbers of rows of cases in words."""
+    return f"row{'s' if len(rows) > 1 else ''} {', '.join(str(row + 1) for row in rows)}"
 
 
 def _spelled(name: str, value: float) -> str:
@@ -205,13 +224,17 @@ def _solve(found: Element, *, whole: bool) -> Sequence[Running]:
 def _answer(found: Element, runs: Sequence[Running]) -> None:
     from bem.cli._terminal import print_text, table
     from bem.elements.answer import answer
+    from bem.elements.element import rpm
+    from bem.quantities import plain_digits
 
     described = f", {found.model.description}" if found.model.description else ""
+    speed = getattr(found.model, "speed", None)
+    described += f", {plain_digits(rpm(speed), 4)} rpm" if speed else ""
     table(("", ""), answer(found, runs), title=f"{found.model.name}: {found.model.element}{described}")
     for sentence in found.found.geometry:
         print_text(sentence)
     count = len(found.found.contacts)
-    solved = f", {len(runs)} of them with a solved film" if runs else ""
+    solved = f", {len(runs)} solved films" if runs else ""
     options = "--contacts shows them, --table FILE.csv and --figure FILE.png write them"
     print_text(f"{count} contact{'s' if count > 1 else ''}{solved}: {options}.")
 
@@ -220,12 +243,12 @@ def _chosen(found: Element, at: str) -> ElementContact:
     from bem.errors import InputError
 
     if at == "worst":
-        return found.worst()
+        return found.critical()
     if at == "thinnest":
         return found.thinnest()
     contacts, marks = found.found.contacts, "".join(f"{name}, " for name in found.found.marks)
-    if at in found.found.marks:
-        return min(found.found.contacts, key=lambda one: abs(one.place - found.found.marks[at]))
+    if at in found.found.marked:
+        return found.found.marked[at]
     if at.isdigit() and 1 <= int(at) <= len(contacts):
         return contacts[int(at) - 1]
     raise InputError(f'--at "{at}": allowed: worst, thinnest, path, {marks}or a number from 1 to {len(contacts)}')
@@ -244,9 +267,10 @@ def _show(found: Element, chosen: ElementContact, runs: Sequence[Running]) -> No
     shown = [key for key in shown if not all(map(math.isnan, mine[key]))]
     units = {key: _unit(key, mine[key]) for key in shown}
     rows = []
+    marked = chosen if chosen in contacts else min(contacts, key=lambda one: abs(one.place - chosen.place))
     for i, one in enumerate(contacts):
         cells = ["" if math.isnan(mine[key][i]) else units[key][1](mine[key][i]) for key in shown]
-        rows.append((f"{i + 1} <" if one is chosen else str(i + 1), _contact_name(found, i), *cells))
+        rows.append((f"{i + 1} <" if one is marked else str(i + 1), _contact_name(found, i), *cells))
     heads = [f"{_HEADS[key]} ({units[key][0]})" if units[key][0] else _HEADS[key] for key in shown]
     head = ["", "where", *heads]
     title = f"{found.model.name}: {found.model.element}"
@@ -279,16 +303,7 @@ def _contact_name(found: Element, index: int) -> str:
 
     one = found.found.contacts[index]
     where = one.name if found.found.along_unit == "rad" else degrees(one, found.found.along_unit)
-    return f"{where}  {_letters(found)[index]}".rstrip()
-
-
-def _letters(found: Element) -> list[str]:
-    """Letters of the marked places of a path at the rows nearest to them, empty elsewhere."""
-    letters = [""] * len(found.found.contacts)
-    for name, place in found.found.marks.items():
-        nearest = min(range(len(letters)), key=lambda i: abs(found.found.contacts[i].place - place))
-        letters[nearest] = f"{letters[nearest]} {name}".strip()
-    return letters
+    return f"{where}  {found.letters()[index]}".rstrip()
 
 
 _BY_FORMULA = {

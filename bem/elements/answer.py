@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from bem.elements.bearing_life import life_rows
+from bem.elements.bearing_life import life_notes, life_rows
 from bem.elements.bush_answer import (
     FilmOfBush,
     bush_notes,
@@ -169,10 +169,11 @@ def answer(element: Element, solved: Sequence[Running]) -> Rows:
     runs = [one for one in solved if one.converged]
     if isinstance(element.model, PlainBushModel):
         return _bush(element, element.model, runs, solved)
-    rows: list[tuple[str, str]] = [("critical contact", contact_words(element, element.worst()))]
+    rows: list[tuple[str, str]] = [("critical contact", contact_words(element, element.critical()))]
     if runs:
         rows += [
             ("lambda ratio", _film(element, runs)),
+            *_marked(element, runs),
             *_friction_rows(element, runs),
             ("temperatures", _temperatures(element, runs)),
         ]
@@ -220,6 +221,8 @@ def _film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | Non
 def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...]:
     """Return notes on limits that the answer exceeds; `solved` as in `answer`."""
     runs = [one for one in solved if one.converged]
+    if isinstance(element.model, BearingModel):
+        return life_notes(element, min((one.film_ratio for one in runs if one.film_ratio is not None), default=None))
     if not isinstance(element.model, PlainBushModel):
         return ()
     return bush_notes(element.model, _film_of_bush(element, runs))
@@ -255,6 +258,8 @@ def place_words(element: Element, one: ElementContact) -> str:
         return f"{'cam' if isinstance(model, CamModel) else 'crank'} angle {one.name}"
     distance = f"{1e3 * abs(one.place):.3g} mm {'before' if one.place < 0 else 'after'} C"
     for mark, place in element.found.marks.items():
+        if abs(one.place - place) < _AT:
+            return f"{mark} ({distance})" if mark != "C" else "C"
         if min(element.found.contacts, key=lambda other: abs(other.place - place)) == one:
             return f"{mark} ({distance})" if mark != "C" else "C"
     return distance
@@ -291,6 +296,27 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
     if element.bulk_estimated:
         cool = f"; about {_ratio_at_oil(element, thinnest):.3g} if the flanks were only as warm as the oil"
     return f"{ratio:.3g} ({regime}{touching}), {film}{cool}"
+
+
+_NEAR, _AT = 0.02, 1e-9
+"""Distance from a marked place over the path's length up to which a film stands for it; up to which it is there [m]."""
+
+
+def _marked(element: Element, runs: Sequence[Running]) -> list[tuple[str, str]]:
+    """Return a row for each marked place, A to E of gears, that has a solved film."""
+    rows = []
+    for mark, place in element.found.marks.items():
+        one = min(runs, key=lambda run: abs(run.contact.place - place))
+        if abs(one.contact.place - place) > _NEAR * (runs[-1].contact.place - runs[0].contact.place):
+            continue
+        said = [f"minimum film {with_unit(one.minimum_film, 'm')}"]
+        said += [] if one.film_ratio is None else [f"lambda {one.film_ratio:.3g}"]
+        said.append(f"film friction {abs(one.friction):.2g}")
+        said += [] if one.oil is None else [f"oil {one.oil - CELSIUS:.3g} °C"]
+        said += [] if one.surface is None else [f"surface {one.surface - CELSIUS:.3g} °C"]
+        exact = abs(one.contact.place - place) < _AT
+        rows.append((f"at {mark}" if exact else f"near {mark}", ", ".join(said)))
+    return rows
 
 
 def _ratio_at_oil(element: Element, one: Running) -> float:

@@ -9,6 +9,7 @@ from bem.elements.element import Element
 from bem.elements.rating_life import (
     CONTAMINATION,
     LEAST_KAPPA,
+    MOST_KAPPA,
     RELIABILITY,
     RatingLife,
     axial_factors,
@@ -29,7 +30,15 @@ from bem.elements.reference_life import (
     roller_reference_life,
 )
 from bem.elements.rolling_bearing import BearingModel
+from bem.notes import Note
+from bem.notes.elements import KAPPA_ABOVE_FILM, LOAD_ABOVE_LIFE_FORMULA
 
+HIGHEST_LOAD = 0.5
+"""P / C up to which the formulas of ISO 281 hold."""
+KAPPA_EXPONENT = 1.3
+"""ISO 281 relates the viscosity ratio to the lambda ratio by kappa = lambda^1.3, approximately."""
+_WELL_BELOW = 0.7
+"""Fraction of kappa below which the film's own kappa is said: a_ISO hardly differs above."""
 DEFAULT_CLEANLINESS = "normal"
 """Cleanliness of a bearing whose file says none."""
 
@@ -156,6 +165,33 @@ def life_rows(element: Element) -> list[tuple[str, str]]:
         )
     )
     return rows
+
+
+def life_notes(element: Element, film_ratio: float | None) -> tuple[Note, ...]:
+    """Return notes on limits of the lives.
+
+    film_ratio : smallest lambda ratio of the solved films; None without roughness or films.
+    """
+    model = element.model
+    assert isinstance(model, BearingModel)
+    rating = bearing_life(element).rating
+    notes = []
+    if rating.load > HIGHEST_LOAD * rating.dynamic_rating:
+        notes.append(LOAD_ABOVE_LIFE_FORMULA(ratio=rating.load / rating.dynamic_rating))
+    kappa = None if rating.viscosity_ratio is None else min(rating.viscosity_ratio, MOST_KAPPA)
+    film = None if film_ratio is None else film_ratio**KAPPA_EXPONENT
+    if kappa is not None and film is not None and film < _WELL_BELOW * kappa:
+        factor = life_modification_factor(
+            model.rolling,
+            viscosity_ratio=film,
+            contamination=rating.contamination,
+            limit_over_load=rating.fatigue_limit / rating.load,
+        )
+        life = "not defined"
+        if factor is not None:
+            life = _life(RELIABILITY[model.reliability] * factor * rating.basic, model.speed)
+        notes.append(KAPPA_ABOVE_FILM(kappa=rating.viscosity_ratio, ratio=film_ratio, film=film, life=life))
+    return tuple(notes)
 
 
 def _factors(model: BearingModel, life: BearingLife) -> str:

@@ -70,7 +70,7 @@ def _columns_of(table: Mapping[str, Any], rows: str | Path) -> dict[str, list[st
     known = [name for name in type(load_element(table).model).model_fields if name not in ("element", "oil")]
     known += ["oil.temperature", "oil.grade"] if isinstance(table.get("oil"), Mapping) else []
     try:
-        return columns_of(str(rows), known, ())
+        return columns_of(str(rows), known, (), 1)
     except PydanticCustomError as error:
         raise InputError(error.message()) from None
 
@@ -93,7 +93,7 @@ def columns(
     """
     found: dict[str, list[float | str]] = {"case": [one.model.name for one in cases]}
     found |= {key: list(values) for key, values in changed.items()}
-    worst = [one.worst() for one in cases]
+    worst = [one.critical() for one in cases]
     found["worst"] = [place_words(one, contact) for one, contact in zip(cases, worst, strict=True)]
     found["load [N]"] = [contact.load for contact in worst]
     found["hertz_pressure [Pa]"] = [

@@ -24,12 +24,12 @@ from bem.elements.model import Contacts, ElementModel
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.plain_bush import HOUSING, PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
-from bem.elements.rough_scenes import bush_scene, conducts, mixed_scene, rubbing_scene
+from bem.elements.rough_scenes import bush_scene, conducts, life_scene, mixed_scene, rubbing_scene
 from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
 from bem.notes.checks import SLOPES_LARGE, YIELDS
-from bem.notes.elements import NO_HEAT, SURFACES_TOUCH
+from bem.notes.elements import NO_HEAT, SPEED_WITHOUT_UNIT, SURFACES_TOUCH
 from bem.quantities import with_unit
 from bem.scenes.checks.hertz import smooth_contact
 from bem.scenes.checks.plausible import notes_on_table
@@ -89,9 +89,12 @@ _SHORT = {
     **dict.fromkeys(("bush", "bushing", "bushes", "bushings"), "plain-bush"),
     **dict.fromkeys(("plain-bearing", "sleeve-bearing", "sliding-bearing"), "plain-bush"),
 }
-KINDS = ("traction", "contact", "point-film", "friction", "running-in", "surface-temperature")
+_ROUGHNESS = ("ra", "rq", "sq", "sa", "rz")
+"""Keys that users expect in an element's file for its roughness."""
+KINDS = ("traction", "contact", "point-film", "friction", "running-in", "surface-temperature", "running-in-life")
 """Kinds of scene that are made of a contact."""
 MIXED = ("friction", "running-in")
+LIFE = "running-in-life"
 """Those in which the oil film and the rough surfaces share the load."""
 
 
@@ -127,6 +130,16 @@ class Element:
             raise self._no_contact()
         return max(self.found.contacts, key=lambda one: one.hertz(self.modulus).maximum_pressure)
 
+    def critical(self) -> ElementContact:
+        """Return the contact of highest pressure, marked ones included: at B of spur gears one pair carries alone.
+
+        Raises
+        ------
+        InputError : as `worst`.
+        """
+        every = (self.worst(), *self.found.marked.values())
+        return max(every, key=lambda one: one.hertz(self.modulus).maximum_pressure)
+
     def at_bulk(self, temperature: float, *, estimated: bool = False) -> Element:
         """Return the element with bodies of a temperature [K], in place of its bulk temperature or heat balance."""
         table = {key: value for key, value in self.table.items() if key not in ("bulk_temperature", "heat_balance")}
@@ -151,12 +164,25 @@ class Element:
 
     def thinnest(self) -> ElementContact:
         """That with the thinnest film; InputError without an oil, or where the bodies touch nowhere."""
+        return self._thinnest_of(self.found.contacts)
+
+    def thinnest_steady(self) -> ElementContact:
+        """Return the contact of the thinnest steady film, of those whose surfaces do not run against each other.
+
+        Raises
+        ------
+        InputError : as `thinnest`.
+        """
+        steady = [one for one in self.found.contacts if abs(one.slide_roll_ratio) <= 2]
+        return self._thinnest_of(steady or self.found.contacts)
+
+    def _thinnest_of(self, contacts: Sequence[ElementContact]) -> ElementContact:
         if self.model.oil is None:
             raise InputError(f"{self.model.name}: no oil is given, so no film is the thinnest; allowed: a table [oil]")
         if not self.found.contacts:
             raise self._no_contact()
         oil = self._film_oil().build()
-        return min(self.found.contacts, key=lambda one: one.minimum_film(self.modulus, oil))
+        return min(contacts, key=lambda one: one.minimum_film(self.modulus, oil))
 
     def columns(self) -> dict[str, list[float]]:
         """All contacts as columns, units in the names: what a scene over a path reads, then Hertz' contact and film."""
@@ -187,8 +213,17 @@ class Element:
         return found
 
     def csv(self, more: Mapping[str, Sequence[float]] = MappingProxyType({})) -> str:
-        """`columns`, and more of them, as comma-separated text."""
-        return csv_text({**self.columns(), **more})
+        """`columns`, and more of them, as comma-separated text; on a path with marks a column of their letters."""
+        marks = {"mark": self.letters()} if self.found.marks else {}
+        return csv_text({**self.columns(), **more, **marks})
+
+    def letters(self) -> list[str]:
+        """Return the letters of the marked places at the contacts nearest to them, empty elsewhere."""
+        letters = [""] * len(self.found.contacts)
+        for name, place in self.found.marks.items():
+            nearest = min(range(len(letters)), key=lambda i: abs(self.found.contacts[i].place - place))
+            letters[nearest] = f"{letters[nearest]} {name}".strip()
+        return letters
 
     def path(self) -> dict[str, list[float]]:
         """What a scene of kind traction reads as `along`: a row for each place, in SI units.
@@ -233,6 +268,8 @@ class Element:
     def notes(self) -> tuple[Note, ...]:
         """Return the notes on the element, and on places where half-space and line film do not carry."""
         notes = [*notes_on_table(self.model), *self.found.notes, *self.model.viscosity_notes()]
+        if (bare := self.speed_note()) is not None:
+            notes.append(bare)
         conforming = [one.name for one in self.found.contacts if one.conforming(self.modulus)]
         if conforming and not isinstance(self.model, PlainBushModel):  # whose contact is that of conforming bodies
             notes.append(SLOPES_LARGE(places=len(conforming), first=conforming[0], limit=CONFORMING, reason="element"))
@@ -248,6 +285,13 @@ class Element:
         if touching and not isinstance(self.model, PlainBushModel):  # whose solved film tells it
             notes.append(SURFACES_TOUCH(where=f" at {touching} of {len(ratios)} places"))
         return tuple(notes)
+
+    def speed_note(self) -> Note | None:
+        """Return a note on a speed of rotation without a unit; None of one that has it."""
+        given = self.table.get("speed")
+        if not isinstance(given, int | float):
+            return None
+        return SPEED_WITHOUT_UNIT(speed=float(given), rpm=rpm(float(given)))
 
     def _yielding(self) -> Note | None:
         """Return a note where Hertz' pressure is beyond what the softer material carries elastically."""
@@ -283,7 +327,7 @@ class Element:
                 f"kind {show(kind)}: not made of an element{nearest(kind, KINDS)}; allowed: {', '.join(KINDS)}"
             )
         assumed = []
-        if kind in (*MIXED, "surface-temperature"):
+        if kind in (*MIXED, LIFE, "surface-temperature"):
             dry = isinstance(self.model, PlainBushModel) and self.model.oil is None
             if "boundary_friction" not in self.model.model_fields_set and not dry:
                 assumed.append(f"boundary friction {self.model.boundary_friction:g} is assumed")
@@ -307,7 +351,12 @@ class Element:
             if isinstance(self.model, PlainBushModel) and self.model.oil is None:
                 self._rub_as_the_bush(self.model, rubbing)
             return base | rubbing
-        return base | self._film(contact, bodies, kind)
+        film = self._film(contact, bodies, kind)
+        if kind == LIFE:
+            film, more = life_scene(self.model, contact, bodies, self._oil_table(), self._patch_modulus)
+            film |= {"thermal": "off"} if self._layered else {}
+            base["description"] = "; ".join([base["description"], *more])
+        return base | film
 
     @staticmethod
     def _rub_as_the_bush(bush: PlainBushModel, scene: dict[str, Any]) -> None:
@@ -420,6 +469,11 @@ class Element:
         }
 
 
+def rpm(speed: float) -> float:
+    """Return a speed of rotation [rad/s] in revolutions per minute."""
+    return speed * 30 / math.pi
+
+
 def csv_text(columns: Mapping[str, Sequence[float | str]]) -> str:
     """Columns of one length as comma-separated text, numbers to the last digit."""
     sink = io.StringIO()
@@ -453,7 +507,18 @@ def load_element(source: str | Path | Mapping[str, Any]) -> Element:
     try:
         return Element(validate(table, MODELS[kind]), table)
     except InputError as error:  # what is wrong with the whole is said of the element
-        raise InputError([re.sub("^scene:", f"{kind}:", text) for text in error.messages]) from None
+        raise InputError([_of_element(kind, text) for text in error.messages]) from None
+
+
+def _of_element(kind: str, message: str) -> str:
+    """Return the message on a mistake in an element's file in its words, which are made for scenes."""
+    key = message.partition(":")[0]
+    if key.lower() in _ROUGHNESS and "unknown key" in message:
+        return (
+            f'{key}: unknown key; write rms_roughness = "500 nm" of both surfaces together, sqrt(Sq1^2 + Sq2^2), Sq '
+            "about 1.25 Ra"
+        )
+    return re.sub("^scene:", f"{kind}:", message).replace("at the top of the scene", "at the top of the file")
 
 
 def read_element(path: str | Path) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bem.elements.element import Element
+from bem.elements.gear_pair import GearModel
 from bem.elements.running import wear_per_pass
 from bem.particles import particle_number
 
@@ -19,12 +20,13 @@ def wear_per_hour(element: Element) -> str:
     if element.model.specific_wear_rate is None:
         return "not known: give specific_wear_rate, measured with this oil at a like lambda ratio"
     said = []
-    for body, rate in enumerate(rates):
+    names = ("pinion", "wheel") if isinstance(element.model, GearModel) else ("body 1", "body 2")
+    for body, (name, rate) in enumerate(zip(names, rates, strict=True)):
         if rate is None:
-            said.append(f"body {body + 1} not known: its places are not passed equally often")
+            said.append(f"{name} not known: its places are not passed equally often")
             continue
         depth, where = max((wear_per_pass(element, one)[body] or 0.0, one.name) for one in contacts)
-        said.append(f"body {body + 1} {3600 * rate * depth * 1e6:.3g} um at {where}")
+        said.append(f"{name} {3600 * rate * depth * 1e6:.3g} um at {where}")
     return ", ".join(said) + "; Archard's law with the whole load and a wear rate of this lubrication"
 
 

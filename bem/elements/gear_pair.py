@@ -32,9 +32,10 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.materials import contact_modulus
 from bem.scenes.common import PositiveLength, PositivePressure, problem
-from bem.scenes.units import Angle, Dimension, Ratio, RotationSpeed
+from bem.scenes.units import Angle, Dimension, Number, Ratio, RotationSpeed
 
 Torque = Annotated[float, Dimension("N*m", "a torque", "30 N*m")]
+LoadStage = Annotated[float, Number("", "a load stage of the FZG test from 1 to 14", "12")]
 Teeth = Annotated[int, Field(strict=True, ge=6, le=2000)]
 
 _ACROSS = 1024
@@ -48,8 +49,8 @@ class GearModel(ElementModel):
 
     Tips are at the module times 1 + x over the reference circle where `tip_diameters` does not say otherwise. Module,
     pressure angle and profile shifts of helical gears are those of the normal section. The load is the pinion's
-    `torque`, or the one that gives `hertz_pressure` at the pitch point. For scuffing: `scuffing_load_stage`, at which
-    the oil fails the FZG test A/8.3/90, and `structure_factor`, 1 for case-hardened steels.
+    `torque`, or the one that gives `hertz_pressure` at the pitch point. For scuffing: `scuffing_load_stage`, 1 to 14,
+    at which the oil fails the FZG test A/8.3/90, and `structure_factor`, 1 for case-hardened steels.
     """
 
     element: Literal["gear-pair"] = "gear-pair"
@@ -64,7 +65,7 @@ class GearModel(ElementModel):
     hertz_pressure: PositivePressure | None = None
     speed: Annotated[RotationSpeed, Field(gt=0)]
     points: Annotated[int, Field(strict=True, ge=5, le=2001)] = 41
-    scuffing_load_stage: Annotated[Ratio, Field(ge=1, le=20)] | None = None
+    scuffing_load_stage: Annotated[LoadStage, Field(ge=1, le=14)] | None = None
     structure_factor: Annotated[Ratio, Field(gt=0, lt=3)] = 1.0
 
     @model_validator(mode="after")
@@ -107,24 +108,28 @@ class GearModel(ElementModel):
         inclined = math.cos(path.base_helix)
         normal = self.pinion_torque / (path.base_radii[0] * inclined)
         omega = (self.speed, self.speed * self.teeth[0] / self.teeth[1])
-        found = []
-        for i in range(self.points):
-            s = path.start + (path.end - path.start) * i / (self.points - 1)
+
+        def contact(s: float) -> ElementContact:
+            """Return the contact at a distance from the pinion's base point."""
             distances = (s, path.line - s)
-            found.append(
-                ElementContact(
-                    f"{1e3 * (s - path.pitch):.3g} mm from C", s - path.pitch, normal * path.share(s),
-                    (distances[0] / inclined, distances[1] / inclined),
-                    (omega[0] * distances[0], omega[1] * distances[1]), length=self.face_width / inclined,
-                )
+            speeds = (omega[0] * distances[0], omega[1] * distances[1])
+            if s == path.pitch:  # rolls there, but for rounding
+                speeds = (speeds[0], speeds[0])
+            return ElementContact(
+                f"{1e3 * (s - path.pitch):.3g} mm from C", s - path.pitch, normal * path.share(s),
+                (distances[0] / inclined, distances[1] / inclined),
+                speeds, length=self.face_width / inclined,
             )  # fmt: skip
+
+        steps = [i / (self.points - 1) for i in range(self.points)]
         return Contacts(
-            tuple(found),
+            tuple(contact(path.start + (path.end - path.start) * step) for step in steps),
             "position",
             "m",
             at_once=path.contact_ratio,
             passes=_turns(omega),
             marks=path.marks,
+            marked={name: contact(path.pitch + place) for name, place in path.marks.items()},
             geometry=_geometry(self, path),
         )
 

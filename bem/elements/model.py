@@ -31,7 +31,8 @@ class Contacts:
     at_once : how many there are at a time, where the contacts are one that wanders.
     passes : how often a place of either body comes through the contact [1/s]; None of one where that is no single
         number.
-    marks : places of the path that have a name, in its order: "A" to "E" of a gear pair.
+    marks : places of the path that have a name, in its order: "A" to "E" of a gear pair. marked : their contacts, which
+        `contacts` need not have.
     geometry : sentences with the element's own figures: path of contact, load sharing.
     """
 
@@ -42,6 +43,7 @@ class Contacts:
     at_once: float = 1.0
     passes: tuple[float | None, float | None] = (None, None)
     marks: Mapping[str, float] = field(default_factory=dict)
+    marked: Mapping[str, ElementContact] = field(default_factory=dict)
     geometry: tuple[str, ...] = ()
 
 

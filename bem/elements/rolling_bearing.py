@@ -28,13 +28,15 @@ from bem.elements.model import Contacts, ElementModel
 from bem.elements.rating_life import BearingGeometry, Cleanliness
 from bem.elements.reference_life import SlicedRollers, slice_rollers
 from bem.materials import contact_modulus
+from bem.quantities import si
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes.common import PositiveLength, PositivePressure, problem
-from bem.scenes.units import Angle, Force, Length, Ratio, RotationSpeed
+from bem.scenes.units import Angle, Force, Length, Number, Ratio, RotationSpeed
 
 _STEEL_DENSITY = 7800.0  # kg/m^3, of elements whose material says none
 
 
+GrooveRatio = Annotated[float, Number("", "the radius of the groove over the diameter of a ball", "0.52")]
 AxialFactor = Annotated[Ratio, Field(ge=0, le=10)]
 
 
@@ -57,7 +59,7 @@ class BearingModel(ElementModel):
     diameter: PositiveLength
     count: Annotated[int, Field(strict=True, ge=3, le=200)]
     length: PositiveLength | None = None
-    groove: Annotated[Ratio, Field(gt=0.5, lt=1)] = 0.52
+    groove: Annotated[GrooveRatio, Field(gt=0.5, lt=1)] = 0.52
     radial_load: Annotated[Force, Field(gt=0)] | None = None
     hertz_pressure: PositivePressure | None = None
     axial_load: Annotated[Force, Field(ge=0)] = 0.0
@@ -283,14 +285,15 @@ def _load_sharing(model: BearingModel, shared: Sequence[float], pressed_out: flo
     """Return sentences with the figures of the load sharing."""
     highest = max(shared)
     said = [
-        f"{sum(q > 0 for q in shared)} of {model.count} {model.rolling}s carry; the most loaded one {highest:.4g} N, "
-        f"{highest * model.count / model.load:.3g} times the radial load over the number of {model.rolling}s."
+        f"{sum(q > 0 for q in shared)} of {model.count} {model.rolling}s carry; the most loaded one "
+        f"{si(highest, 'N', 4)}, {highest * model.count / model.load:.3g} times the radial load over the number of "
+        f"{model.rolling}s."
     ]
     if model.ball_loads is not None:
         carrying = model.ball_loads.contact_angles[model.ball_loads.loads > 0]
         least, most = (math.degrees(float(one)) for one in (carrying.min(), carrying.max()))
         said.append(
-            f"Axial load {model.axial_load:.4g} N: contact angles {least:.3g} to {most:.3g} deg, the inner ring "
+            f"Axial load {si(model.axial_load, 'N', 4)}: contact angles {least:.3g} to {most:.3g} deg, the inner ring "
             f"{1e6 * model.ball_loads.axial_shift:.3g} um along the axis; spin of the balls is left out."
         )
     uneven = _unevenness(model.slices)
@@ -302,7 +305,7 @@ def _load_sharing(model: BearingModel, shared: Sequence[float], pressed_out: flo
         )
     if pressed_out > 0.05 * highest:
         said.append(
-            f"Centrifugal force presses each element outwards with {pressed_out:.3g} N, which is in the loads of the "
-            "outer ring and not in how the radial load is shared."
+            f"Centrifugal force presses each element outwards with {si(pressed_out, 'N')}, which is in the loads of "
+            "the outer ring and not in how the radial load is shared."
         )
     return tuple(said)

@@ -34,6 +34,10 @@ _HURST = 0.8
 """Hurst exponent of machined surfaces; 0.7 to 0.9 are usual."""
 
 _CYCLES = {"count": 50, "averaged": 10, "settled": 20}
+ASSUMED_SLIDING, ASSUMED_WEAR_RATE, ASSUMED_CYCLES = 0.02, 2e-17, 1_000_000
+"""Slide-to-roll ratio of lives in place of pure rolling (rolling bearings slip by 1 to 3 %), wear rate of lives without
+one of the element [m^2/N], as in the template of running-in-life, and their cycles."""
+_LEAST_SLIDING = 1e-4
 _DEPTHS = 50
 _CELLS_PER_DEPTH = 5.0
 """Steps between depths are so many times shorter than the cells, as in the built-in scenes of running-in."""
@@ -155,6 +159,41 @@ def mixed_scene(
         "depths": {"count": _DEPTHS, "spacing": patch.coarser_spacing / _CELLS_PER_DEPTH},
         "cycles": dict(_CYCLES),
     }
+
+
+def life_scene(
+    model: ElementModel,
+    contact: ElementContact,
+    bodies: Mapping[str, Mapping[str, Any]],
+    oil: Mapping[str, Any],
+    modulus: float,
+) -> tuple[dict[str, Any], list[str]]:
+    """Return the keys of a scene of kind running-in-life, see `mixed_scene`, and what is assumed in it, in words.
+
+    Wear is Archard's with the element's rate; a place slides by slide-to-roll ratio times patch in a pass. In pure
+    rolling nothing wears, so that a slide-to-roll ratio is assumed.
+
+    Raises
+    ------
+    InputError : as `mixed_scene`; a point contact.
+    """
+    if contact.length is None:
+        raise InputError(
+            f"{contact.name}: kind running-in-life has line contacts alone; allowed: kind running-in under a ball"
+        )
+    made, assumed = mixed_scene(model, contact, bodies, oil, "friction", modulus), []
+    ratio, rate = contact.slide_roll_ratio, model.specific_wear_rate
+    if abs(ratio) < _LEAST_SLIDING:
+        ratio = ASSUMED_SLIDING
+        made["speeds"] = {"values": [abs(contact.mean_speed) * (1 + 0.5 * ratio)], "slide_roll_ratio": ratio}
+        assumed.append(f"slide-to-roll ratio {ratio:g} is assumed in place of pure rolling")
+    if not rate:
+        rate = ASSUMED_WEAR_RATE
+        assumed.append("the wear rate is assumed")
+    distance = abs(ratio) * made["grid"]["lengths"][0]
+    law = {"kind": "archard", "specific_wear_rate": f"{1e9 * rate:.6g} mm^3/(N*m)", "distance": distance}
+    keys = {name: value for name, value in made.items() if name != "sharing"}
+    return keys | {"wear": {"law": law}, "life": {"count": ASSUMED_CYCLES}}, assumed
 
 
 def bush_scene(

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 CITES = ("zhou1991",)
 """Source of the estimated load share of asperities, a key of `bem/references.bib`."""
 _SHARE_FACTOR, _SHARE_POWER = 1.8, 1.2
+_SAME = 1e-9
+"""Distance of contacts along a path [m] below which they are one."""
 POINTS = 500
 """Of each film: of the templates' elements figures are within 0.1 % of those on 2000, and places are many."""
 
@@ -147,8 +149,8 @@ def wear_per_pass(element: Element, contact: ElementContact) -> tuple[float | No
 def operating_places(element: Element, most: int | None = None) -> tuple[ElementContact, ...]:
     """Return the contacts with a steady film, in their order: all, or about `most` of them.
 
-    A selection is even along the path, and holds the contacts nearest to marks, the one of highest pressure and the
-    one of the thinnest film.
+    A selection is even along the path, and holds the contacts at marks, the one of highest pressure and the one of the
+    thinnest film.
 
     Raises
     ------
@@ -163,12 +165,15 @@ def operating_places(element: Element, most: int | None = None) -> tuple[Element
     if most is None or len(steady) <= most:
         return tuple(contacts[i] for i in steady)
     even = {steady[round(i * (len(steady) - 1) / (most - 1))] for i in range(most)}
-    named = {min(steady, key=lambda i: abs(contacts[i].place - place)) for place in element.found.marks.values()}
     films, modulus = element.columns().get("minimum_film [m]"), element.modulus
     extreme = {max(steady, key=lambda i: contacts[i].hertz(modulus).maximum_pressure)}
     if films is not None:
         extreme.add(min(steady, key=lambda i: films[i]))
-    return tuple(contacts[i] for i in sorted(even | named | extreme))
+    chosen = [contacts[i] for i in sorted(even | extreme)]
+    marked = [
+        one for one in element.found.marked.values() if all(abs(one.place - other.place) > _SAME for other in chosen)
+    ]
+    return tuple(sorted([*chosen, *marked], key=lambda one: one.place) if marked else chosen)
 
 
 def run_all(

@@ -25,12 +25,19 @@ _UNITS = {
 """SI units of the keys that `Element.scene` and `Element.path_scene` fill with numbers."""
 
 
+_PURE_ROLLING = "    # pure rolling: asperities carry load but do not rub; for a Stribeck curve 0.02 or the like"
+"""Comment on a slide-to-roll ratio of zero in a scene of kind friction."""
+
+
 def scene_text(table: Mapping[str, Any]) -> str:
     """Return the table of an element's scene as TOML text for a reader: tables under headings, values with units."""
     tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
+    rolls = table.get("kind") == "friction" and table["speeds"]["slide_roll_ratio"] == 0
     lines = [f"{key} = {_value(key, value)}" for key, value in table.items() if key not in tables]
     for key, inner in tables.items():
         lines += ["", f"[{key}]", *(f"{name} = {_value(name, value)}" for name, value in inner.items())]
+        if rolls and key == "speeds":
+            lines[-1] += _PURE_ROLLING
     return "\n".join(lines) + "\n"
 
 

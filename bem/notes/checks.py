@@ -463,7 +463,7 @@ FRICTION_SWINGS = define(
         "short": Reason(
             "The same roughness returns every {turn} cycles, and the run has {cycles}: the place changes friction as"
             " wear does.",
-            "Set cycles.count to two turns or more, and cycles.averaged to one.",
+            "Set cycles.count = {count} (two turns) or more, and cycles.averaged = {turn} (one turn).",
         ),
     },
 )
@@ -509,9 +509,10 @@ WEAR_STEPS_LONG = define(
 NOTHING_CAME_OFF = define(
     "nothing-came-off",
     CAUTION,
-    "The wear criterion {law} removed no particle.",
+    "The wear criterion {law} removed no particle{beside}.",
     "{takes}",
-    "Raise load, friction or cycles.count, or check yield_stress and the constants of wear.criterion.",
+    "Raise load, friction or cycles.count, check yield_stress and the constants of wear.criterion, or wear by a "
+    "measured rate with kind running-in-life.",
 )
 PARTICLES_CUT = define(
     "particles-cut",

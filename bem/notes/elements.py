@@ -19,6 +19,29 @@ NO_HEAT = define(
         ),
     },
 )
+SPEED_WITHOUT_UNIT = define(
+    "speed-without-unit",
+    CAUTION,
+    "speed = {speed:g} without a unit is in rad/s: {rpm:.6g} rpm.",
+    "",
+    'Write the unit, such as "1500 rpm" if revolutions per minute are meant.',
+)
+KAPPA_ABOVE_FILM = define(
+    "kappa-above-film",
+    INFO,
+    "The viscosity ratio kappa is more favourable than the film.",
+    "kappa = {kappa:.3g}, but lambda = {ratio:.3g} stands for a kappa of {film:.3g} (ISO 281: kappa is about lambda to "
+    "the power 1.3). The required viscosity nu1 is that of the usual finish of bearings; these surfaces are rougher.",
+    "With kappa = {film:.3g} the modified life is {life}.",
+)
+LOAD_ABOVE_LIFE_FORMULA = define(
+    "load-above-life-formula",
+    INFO,
+    "The load is above half the dynamic rating.",
+    "P / C = {ratio:.2g}; ISO 281 says that its life formulas hold up to 0.5, above which local plastic deformation "
+    "shortens lives.",
+    "Take the lives as upper bounds.",
+)
 SURFACES_TOUCH = define(
     "element-surfaces-touch",
     CAUTION,

@@ -119,6 +119,13 @@ OIL_COUNTED = define(
     },
 )
 """Outside the model where the oil, not film and roughness, shares the load (`bem.friction.oil_sensitivity`)."""
+PURE_ROLLING = define(
+    "pure-rolling",
+    CAUTION,
+    "Pure rolling: asperities carry load but do not rub.",
+    "The slide-to-roll ratio is {ratio:.2g}; friction is that of the film alone.",
+    "For a Stribeck curve set speeds.slide_roll_ratio, such as 0.02.",
+)
 BOUNDARY_LUBRICATION = define(
     "boundary-lubrication",
     INFO,

@@ -8,24 +8,28 @@ SURFACE_HOT = define(
     "The surface is too hot for the given material constants.",
     reasons={
         "rise": Reason(
-            "The temperature rises by {rise:.0f} K: steel transforms at 727 degC, and neither light metals nor polymers"
+            "The temperature rises by {rise:.0f} K: steel transforms at 727 °C, and neither light metals nor polymers"
             " stand it.",
             "Lower load, speed or friction, or check the conductivities.",
+            headline="The surface becomes {rise:.0f} K hotter than its body: no material stands that.",
         ),
         "bulk": Reason(
-            "The bulk temperature of {bulk:.0f} degC is above {limit:.0f} degC: oils and hardened bearing steels do not"
+            "The bulk temperature of {bulk:.0f} °C is above {limit:.0f} °C: oils and hardened bearing steels do not"
             " stand it, and the catalogue's thermal constants are those near room temperature.",
             "Lower the bulk temperature, or give thermal constants at that temperature.",
+            headline="The bulk temperature, {bulk:.0f} °C, is above {limit:.0f} °C.",
         ),
         "transforms": Reason(
-            "It reaches {temperature:.0f} degC: steel transforms at 727 degC, aluminium melts at 660 degC and polymers"
+            "It reaches {temperature:.0f} °C: steel transforms at 727 °C, aluminium melts at 660 °C and polymers"
             " below, so hardness, friction and heat will differ from those given.",
             "Lower load, speed or friction.",
+            headline="The surface reaches {temperature:.0f} °C: steel transforms at 727 °C.",
         ),
         "softens": Reason(
-            "It reaches {temperature:.0f} degC: hardened bearing steel is tempered at 150 to 200 degC and softens"
-            " above; most polymers melt below 330 degC.",
+            "It reaches {temperature:.0f} °C: hardened bearing steel is tempered at 150 to 200 °C and softens"
+            " above; most polymers melt below 330 °C.",
             "Check the hardness of the bodies at that temperature.",
+            headline="The surface reaches {temperature:.0f} °C: hardened steel softens above 200 °C.",
         ),
     },
 )

@@ -305,14 +305,16 @@ LUMPED_HEAT_LIMIT = define(
     'Set thermal = "full" for rollers, gears and other line contacts; for balls take film and friction as estimates.',
     reasons={
         "formula": "Gupta et al. (1992) did not cover so much load and speed: the film thickness is an estimate.",
-        "fast": (
+        "fast": Reason(
             "The thermal loading of the inlet, mu0 beta u^2/k, is {loading:.2g} (mu0 viscosity at ambient pressure, "
             "beta its relative fall per kelvin, u entrainment speed, k thermal conductivity of the oil); above "
-            "{limit:g} films were up to a third too thin, and friction was 10 to 60 % off."
+            "{limit:g} films were up to a third too thin, and friction was 10 to 60 % off.",
+            headline="Quick heat (lumped) errs here: films up to a third too thin.",
         ),
-        "slides": (
+        "slides": Reason(
             "The slower surface warms the inlet: at a slide-to-roll ratio of 2 flooded films were 1.2 to 2.8 times as "
-            "thick as with full heat."
+            "thick as with full heat.",
+            headline="Quick heat (lumped) errs here: films up to 2.8 times too thick.",
         ),
         "spreads": Reason(
             "Heat that spreads across the flow is left out: the temperature rise was a tenth to a quarter too large "

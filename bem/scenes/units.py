@@ -122,6 +122,16 @@ class Dimension:
 
 
 @dataclass(frozen=True)
+class Number(Dimension):
+    """A number without a unit that nobody writes in per cent."""
+
+    @property
+    def allowed(self) -> str:
+        """Allowed values as a phrase for messages."""
+        return f"{self.noun}, such as {self.example}"
+
+
+@dataclass(frozen=True)
 class Rotation(Dimension):
     """A speed of rotation, whose unit must say the angle: "1500 1/min" are turns to most and radians to SI."""
 

@@ -10,7 +10,7 @@ from command_line import run_command
 
 from bem import InputError
 from bem.elements.answer import PLACES, answer, balance_heat, friction_power, likely_power
-from bem.elements.bearing_life import bearing_life
+from bem.elements.bearing_life import bearing_life, life_notes
 from bem.elements.element import MODELS, element_template, load_element
 from bem.elements.gear_scuffing import (
     friction_of_gear_tests,
@@ -256,3 +256,47 @@ def test_words_of_life_and_scuffing_lead_to_their_element(bem, tmp_path):
         assert bem("new", word, "made.toml").returncode == 0
         assert f'element = "{name}"' in (tmp_path / "made.toml").read_text()
         (tmp_path / "made.toml").unlink()
+
+
+def test_a_favourable_kappa_beside_a_thin_film_is_said():
+    """ISO 281 relates kappa to lambda^1.3; the life with the film's own kappa stands beside."""
+    rough = load_element(STEEL_BEARING | {"rms_roughness": "280 nm"})
+    (note,) = life_notes(rough, 1.1)
+    assert note.code == "kappa-above-film"
+    assert note.values["film"] == pytest.approx(1.1**1.3)
+    assert note.values["kappa"] == bearing_life(rough).rating.viscosity_ratio > 3
+    assert life_notes(rough, 3.0) == ()
+    assert life_notes(rough, None) == ()
+    heavy = load_element(STEEL_BEARING | {"radial_load": "40 kN"})
+    assert [note.code for note in life_notes(heavy, None)] == ["load-above-life-formula"]
+
+
+def test_a_speed_without_a_unit_is_said_in_rpm():
+    note = load_element(STEEL_BEARING | {"speed": 1500}).speed_note()
+    assert "14323.9 rpm" in str(note)
+    assert load_element(STEEL_BEARING).speed_note() is None
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "words"),
+    [
+        ("rolling-bearing", {"ra": "0.3 um"}, "write rms_roughness"),
+        ("rolling-bearing", {"groove": "6.2 mm"}, "diameter of a ball, such as 0.52"),
+        ("rolling-bearing", {"foo": 1}, "allowed at the top of the file"),
+        ("gear-pair", {"scuffing_load_stage": 20}, "load stage of the FZG test from 1 to 14"),
+    ],
+)
+def test_mistakes_are_said_in_words_of_the_element(name, change, words):
+    with pytest.raises(InputError, match=words):
+        element_of(name, **change)
+
+
+def test_a_scene_of_mixed_friction_is_of_the_thinnest_film(bem, tmp_path):
+    """Of the highest pressure with --at worst; a kind without --scene is refused."""
+    done = bem("element", "gears.toml", "--scene", "mixed.toml", "--kind", "friction")
+    assert done.returncode == 0, done.stderr
+    assert "contact with the thinnest film, A (9.5 mm before C)" in done.stdout
+    assert "The highest pressure is at B" in done.stdout
+    assert "allowed: --scene FILE" in bem("element", "gears.toml", "--kind", "friction").stderr
+    assert bem("element", "bearing.toml", "--scene", "rolls.toml", "--kind", "friction").returncode == 0
+    assert "slide_roll_ratio = 0.0    # pure rolling" in (tmp_path / "rolls.toml").read_text()

@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from bem import InputError, load_scene
+from bem.elements.answer import answer
 from bem.elements.element import element_template, load_element
 from bem.elements.gear_pair import GearModel, path_of_contact
+from bem.elements.running import operating_places, run_contact
 
 PAIR = {
     "element": "gear-pair", "module": "2 mm", "teeth": [20, 40], "face_width": "20 mm", "torque": "50 N*m",
@@ -83,10 +85,8 @@ def test_contact_ratios_without_single_contact_have_no_marks_of_it():
 
 
 def test_the_table_marks_the_rows_nearest_to_the_letters():
-    from bem.cli.element import _letters
-
     element = made(points=5)
-    letters = _letters(element)
+    letters = element.letters()
     assert letters[0] == "A"
     assert letters[-1] == "E"
     assert sorted(" ".join(letters).split()) == ["A", "B", "C", "D", "E"]
@@ -310,3 +310,21 @@ def test_flanks_that_yield_are_told_with_where_and_how_far():
     assert not [
         text for text in made(second=soft).notes() if (text.code, text.values.get("reason")) == ("yields", "element")
     ]
+
+
+def test_marked_contacts_are_at_their_marks():
+    """Exactly, where the contacts of the path are not: one pair carries at B alone, surfaces roll at C."""
+    element = load_element(tomllib.loads(element_template("gear-pair")) | {"points": 5, "name": "gears"})
+    found = element.found.marked
+    assert {name: one.place for name, one in found.items()} == pytest.approx(dict(element.found.marks), abs=1e-12)
+    assert found["C"].speeds[0] == found["C"].speeds[1]
+    assert found["B"].load == found["C"].load > 2 * found["A"].load
+    assert element.critical() == found["B"] != element.worst()
+    places = [one.place for one in operating_places(element, 3)]
+    assert all(min(abs(place - at) for at in places) < 1e-9 for place in element.found.marks.values())
+    said = dict(answer(element, [run_contact(element, found["C"])]))
+    assert "at C" in said
+    assert not {"at A", "near A"} & set(said)
+    header, first, *_ = element.csv().splitlines()
+    assert header.endswith(",mark")
+    assert first.endswith(",A")

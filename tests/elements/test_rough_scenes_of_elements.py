@@ -6,12 +6,12 @@ import tomllib
 import pytest
 
 from bem import InputError, load_scene, plan_scene, run_scene
-from bem.elements.element import KINDS, MIXED, MODELS, element_template, load_element
+from bem.elements.element import KINDS, LIFE, MIXED, MODELS, element_template, load_element
 from bem.elements.model import BOUNDARY_FRICTION
 from bem.elements.rough_scenes import patch_over
 from bem.scenes import get_kind
 
-ROUGH = (*MIXED, "surface-temperature")
+ROUGH = (*MIXED, LIFE, "surface-temperature")
 CONDUCTS = {"thermal_conductivity": 48.0, "density": 7200.0, "heat_capacity": 460.0}
 ROLLERS = {"rolling": "roller", "length": "11 mm"}
 
@@ -40,7 +40,7 @@ def with_film(element):
 def test_every_kind_of_scene_of_every_element_plans(name, kind):
     element = element_of(name)
     place = with_film(element)
-    if kind == "point-film" and place.length is not None:
+    if (kind == "point-film" and place.length is not None) or (kind == LIFE and place.length is None):
         with pytest.raises(InputError, match="line contact"):
             element.scene(place, kind)
         return
@@ -51,7 +51,11 @@ def test_every_kind_of_scene_of_every_element_plans(name, kind):
     if kind in ROUGH:
         heights = [getattr(getattr(scene, body).surface, "rms_height", 0.0) for body in ("lower", "upper")]
         assert math.hypot(*heights) == pytest.approx(element.model.rms_roughness)
-        assert scene.thermal == "lumped" if kind in MIXED else scene.heat.lower_bulk == element.model.oil.temperature
+        assert (
+            scene.thermal == "lumped"
+            if kind in (*MIXED, LIFE)
+            else scene.heat.lower_bulk == element.model.oil.temperature
+        )
         assert f"{BOUNDARY_FRICTION:g} is assumed" in scene.description
 
 

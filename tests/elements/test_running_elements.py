@@ -79,7 +79,7 @@ def test_the_whole_gear_pair(gears):
     assert f"safety factor {min(one.film_ratio for one in runs) / 0.25:.3g}" in said["micropitting"]
     assert "not its procedure" in said["micropitting"]
     depths = columns(element, runs)["wear_per_pass_1 [m]"]
-    assert f"body 1 {max(depths) * 1e6 * 2250 * 60:.3g} um" in said["wear per hour"]
+    assert f"pinion {max(depths) * 1e6 * 2250 * 60:.3g} um" in said["wear per hour"]
     assert "give mean_particle_volume" in said["particles per hour"]
     assert "mixed lubrication" in said["lambda ratio"]
     assert len(columns(element, runs)["friction_power [W]"]) == 5
@@ -223,7 +223,8 @@ def test_values_of_a_case_are_of_the_contact_that_its_row_names(tmp_path):
     row = {name: values[0] for name, values in case_columns([gears], [[film]]).items()}
     assert row["thinnest"] == row["thinnest_by_formula"] == "A (9.5 mm before C)"
     assert row["worst"] != row["thinnest"]
-    assert row["load [N]"] == gears.worst().load
+    assert row["load [N]"] == gears.critical().load
+    assert row["worst"] == "B (3.69 mm before C)"
     assert row["micropitting_safety"] == pytest.approx(film.film_ratio / 0.5)
     assert row["scuffing_safety_contact_temperature"] == scuffing_of(gears, [film]).contact_safety
 

@@ -11,7 +11,7 @@ from command_line import run_command
 
 from bem import InputError, load_scene, plan_scene, run_scene
 from bem.elements.contact import CONFORMING
-from bem.elements.element import KINDS, MODELS, element_template, load_element
+from bem.elements.element import KINDS, LIFE, MODELS, element_template, load_element
 from bem.elements.scene_text import scene_text
 from bem.reference_solutions.hertz import PointContact
 from bem.scenes.load import scene_from_table, scene_table
@@ -82,6 +82,9 @@ def test_the_thinnest_film_is_the_thinnest(element):
 
 def test_columns_have_units_and_a_line_for_each_contact(element):
     rows = list(csv.reader(element.csv().splitlines()))
+    if element.found.marks:
+        assert rows[0].pop() == "mark"
+        assert [row.pop() for row in rows[1:]] == element.letters()
     assert all("[" in name or name == "film_over_roughness" for name in rows[0])
     assert len(rows) == len(element.found.contacts) + 1
     first = dict(zip(rows[0], map(float, rows[1]), strict=True))
@@ -140,6 +143,10 @@ def test_written_scenes_have_units_and_six_digits(element, kind):
     place = element.found.contacts[9 if element.model.element == "cam-follower" else 0]
     if kind == "point-film" and place.length is not None:
         with pytest.raises(InputError, match="allowed: traction, contact, friction, running-in, surface-temperature"):
+            element.scene(place, kind)
+        return
+    if kind == LIFE and place.length is None:
+        with pytest.raises(InputError, match="running-in-life has line contacts alone"):
             element.scene(place, kind)
         return
     table = element.scene(place, kind)

@@ -217,6 +217,10 @@ CASES = {
         (("wear-brass-transfer-film", 'depths.spacing="150 nm"'), "100 nm"),
         "wear-brass-transfer-film",
     ),
+    "surfaces_only_roll": (
+        (("stribeck-ball-on-disc", "speeds.slide_roll_ratio=0"), "asperities carry load but do not rub"),
+        "stribeck-ball-on-disc",
+    ),
     "nothing_slides": ((wear("wear.shift=0"), "wear.shift = 0"), wear("wear.shift=1")),
     "slides_differ": (
         (("wear-mesh-convergence", "variants[0].shift=3"), "wear.shift times the cell size"),

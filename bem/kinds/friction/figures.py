@@ -118,11 +118,15 @@ def _temperatures(run: Any, figure: Figure) -> None:
     """Draw the temperatures of oil and surfaces in contact, of each curve; the surfaces' highest of the first."""
     axes, speed = figure.add_subplot(), np.sort(run.dataset["speed"].values)
     for number, (name, values) in enumerate(_curves(run, "contact_temperature")):
+        if not np.isfinite(values).any():  # nothing rubs: no line, and none in the legend
+            continue
         _band(
             axes, speed, values - _CELSIUS, _COLOURS[number], f"surfaces in contact, {name}".replace(", friction", "")
         )
     for key, text, dots in (("flash_temperature", "highest of them", ":"), ("oil_temperature", "oil, mean", "-.")):
         first = _curves(run, key)[0][1].mean(axis=0)
+        if not np.isfinite(first).any():
+            continue
         axes.plot(speed, first - _CELSIUS, color="0.45", linestyle=dots, label=text)
     axes.set_ylabel("temperature (°C)")
     speed_axis(axes, speed)

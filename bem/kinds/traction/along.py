@@ -19,6 +19,7 @@ from typing import Annotated, Any
 from pydantic import Field, ValidationError, model_validator
 
 from bem.arguments import read_small
+from bem.quantities import counted
 from bem.scenes.common import Force, Table, check_rising, problem
 from bem.scenes.keys import key
 from bem.scenes.units import Length, Speed
@@ -117,7 +118,9 @@ def columns_or_file(data: Any, names: Sequence[str]) -> Any:
     return columns_of(str(data["path"]), names, names)
 
 
-def columns_of(path: str, known: Sequence[str] = COLUMNS, required: Sequence[str] = COLUMNS) -> dict[str, list[str]]:
+def columns_of(
+    path: str, known: Sequence[str] = COLUMNS, required: Sequence[str] = COLUMNS, least: int = 2
+) -> dict[str, list[str]]:
     """Columns of a text file by their names, those that are known, each number with its unit; rows of commas,
     semicolons or tabs, and comments after #.
 
@@ -131,8 +134,9 @@ def columns_of(path: str, known: Sequence[str] = COLUMNS, required: Sequence[str
         why = getattr(error, "strerror", None) or str(error)
         raise problem(f"{path} cannot be read ({why})", "a text file with columns " + ", ".join(known)) from None
     lines = [line for line in (line.partition("#")[0].strip() for line in text.splitlines()) if line]
-    if len(lines) < 3:
-        raise problem(f"{path} has {max(len(lines) - 1, 0)} rows", "a line of names, and two rows or more")
+    if len(lines) < 1 + least:
+        rows_found = counted(max(len(lines) - 1, 0), "row")
+        raise problem(f"{path} has {rows_found}", f"a line of names, and {counted(least, 'row')} or more")
     mark = next((mark for mark in ";\t" if mark in lines[0]), ",")
     rows = list(csv.reader(lines, delimiter=mark, skipinitialspace=True))
     units = dict(_named(path, rows[0], known))

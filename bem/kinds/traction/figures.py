@@ -84,7 +84,7 @@ def _field(run: Any, figure: Figure) -> None:
     upper.set_ylim(0, 3 * middle)
     upper.set_ylabel("height in the film (nm)")
     if case:
-        upper.set_title(case)
+        upper.set_title(f"position {case}" if "position" in axes_of(run.dataset) else case)
     for name, colour in (("lower", BLUE), ("upper", VERMILION)):
         row = dict(grouped(run, f"{name}_surface_temperature"))[case][0]
         lower.plot(x, row - _CELSIUS, color=colour, label=f"{name} surface")

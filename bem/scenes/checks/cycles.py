@@ -88,10 +88,18 @@ def no_wear_rate_of_a_metal(facts: Facts, outcome: Outcome) -> Iterator[Note]:
 def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Figures of a loop that has not settled are those of its number of cycles; rule: `bem.wear.outcome.drift`."""
     told = [] if roughened(facts, outcome).grown else _drifting(facts, outcome)  # a surface full of holes says it there
-    if told:
+    if told and not _nothing_wore(facts, outcome):
         window = _window(facts, _cycles(outcome))
         words = "25, or half of all" if window == _WINDOW else f"{window}, whole turns of the roughness"
         yield NOT_SETTLED(drifting=joined(told), window=words)
+
+
+def _nothing_wore(facts: Facts, outcome: Outcome) -> bool:
+    """Return True if a criterion of pieces alone wears, and no cycle took any off: the surfaces are as they were."""
+    over = outcome.variables.get("particles_over_cycles", outcome.variables.get("particles"))
+    if over is None or not all(case.wear is not None and case.wear.criterion.needs_strength for case in facts.cases):
+        return False
+    return not np.any(over.values)
 
 
 _WINDOW = 25
@@ -150,7 +158,7 @@ def friction_that_swings_with_the_place(facts: Facts, outcome: Outcome) -> Itera
     cycles = loops.shape[-1]
     if cycles < turn:
         if np.ptp(loops, axis=-1).max() > _SWING * np.abs(loops).max():
-            yield FRICTION_SWINGS(turn=turn, cycles=cycles, reason="short")
+            yield FRICTION_SWINGS(turn=turn, cycles=cycles, count=2 * turn, reason="short")
         return
     shown = len(numbers(outcome.summary.get("friction_run_in"))) or len(loops)
     if len(loops) % shown == 0:  # means over repetitions

@@ -8,12 +8,14 @@ from collections.abc import Iterator
 from bem.notes import Level, Note
 from bem.notes.checks import GROWTH_WITHOUT_BARRIER, TRIBOFILM_ON_COATING
 from bem.notes.contact import CREEPAGE_LARGE
+from bem.notes.friction import PURE_ROLLING
 from bem.plausibility import ELECTRON_VOLT
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.registry import outcome_check, scene_check
 from bem.scenes.checks.words import numbers
 from bem.scenes.common import SmoothSurface
 from bem.scenes.context import Outcome
+from bem.scenes.lubrication import slide_roll_ratio
 
 _LIKE = 1.5
 """Ratio of hardnesses up to which a film's curve begins at the coating's own."""
@@ -24,6 +26,20 @@ def oil_outside_its_range(facts: Facts) -> Iterator[Note]:
     """Viscosities extrapolated, an oil above its flash point or too thick to flow."""
     oil = getattr(facts.scene, "oil", None)
     yield from () if oil is None else oil.build().notes
+
+
+_ROLLS = 1e-4
+"""Slide-to-roll ratio below which surfaces creep elastically rather than slide, so that asperities hardly rub."""
+
+
+@scene_check
+def surfaces_only_roll(facts: Facts) -> Iterator[Note]:
+    """A Stribeck curve of pure rolling has no friction of asperities: what is left is that of the film's rolling."""
+    if not facts.of_kind("friction"):
+        return
+    ratio = float(slide_roll_ratio(facts.scene.speeds.other_over_flat))
+    if abs(ratio) < _ROLLS:
+        yield PURE_ROLLING("speeds", ratio=ratio)
 
 
 @scene_check

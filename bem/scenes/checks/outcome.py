@@ -360,7 +360,16 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     for number, case, stress in zip(counts, facts.cases, stresses, strict=True):
         if number == 0 and case.wear is not None and case.wear.finds_particles.needs_strength:
             takes = _what_it_takes(case) or _how_far(case, float(stress))
-            yield NOTHING_CAME_OFF(case.label, law=case.wear.finds_particles.name, takes=takes)
+            beside = _beside_strength(case, float(stress))
+            yield NOTHING_CAME_OFF(case.label, law=case.wear.finds_particles.name, takes=takes, beside=beside)
+
+
+def _beside_strength(case: Case, stress: float) -> str:
+    """Return the largest stress beside the strength in a few words; none where either is not known or reached."""
+    strengths = [material.yield_stress for material in case.wearing if material.yield_stress is not None]
+    if not strengths or not np.isfinite(stress) or stress > min(strengths):
+        return ""
+    return f": {si(stress, 'Pa')} of the {si(min(strengths), 'Pa')} that it takes"
 
 
 def _how_far(case: Case, stress: float) -> str:
