@@ -11,6 +11,8 @@ others help. Steps of a solution:
    takes own columns through the spectrum, and goes back in the same way (`convolution`, `transpose`).
 4. Displacement, violations and load are computed again from the pressure (`solve`).
 
+`maps` reads and writes own rows of maps on a disk that all ranks see.
+
 Sums are gathered by rows and added in their order on every rank, and each transform is of one row or one column: all
 numbers of ranks give the same bits on one kind of machine. The serial solver gives the same contact to the tolerance.
 
@@ -29,15 +31,27 @@ from typing import TYPE_CHECKING
 from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
+    from bem.distributed.maps import read_rows, write_rows
     from bem.distributed.mpi import MpiRanks, world
     from bem.distributed.ranks import OneRank, Ranks, own_slice
     from bem.distributed.solve import SlabSolution, solve_slabs
 
-__all__ = ["MpiRanks", "OneRank", "Ranks", "SlabSolution", "own_slice", "solve_slabs", "world"]
+__all__ = [
+    "MpiRanks",
+    "OneRank",
+    "Ranks",
+    "SlabSolution",
+    "own_slice",
+    "read_rows",
+    "solve_slabs",
+    "world",
+    "write_rows",
+]
 
 __getattr__ = loader(
     __name__,
     {
+        "maps": ["read_rows", "write_rows"],
         "mpi": ["MpiRanks", "world"],
         "ranks": ["OneRank", "Ranks", "own_slice"],
         "solve": ["SlabSolution", "solve_slabs"],
