@@ -77,13 +77,8 @@ class SlabProblem:
     cap: float
 
     def reduce(self, sums: tuple[FloatArray, ...] = (), maxima: tuple[FloatArray, ...] = ()) -> tuple[list[float], ...]:
-        """Return the sums of fields (own rows, ny) over all cells of all ranks, and the maxima of others."""
-        return reduce_rows(
-            self.convolution.ranks,
-            self.convolution.grid.shape[0],
-            tuple(field.sum(axis=1) for field in sums),
-            tuple(field.max(axis=1) for field in maxima),
-        )
+        """Return sums and maxima over all rows of all ranks, from values of own rows (own rows,)."""
+        return reduce_rows(self.convolution.ranks, self.convolution.grid.shape[0], sums, maxima)
 
 
 class Iterate(NamedTuple):
@@ -198,8 +193,11 @@ def solve_bounded(
     for iteration in range(max_iterations + 1):
         deformed = problem.gap + iterate.displacement - search.approach
         (force, loaded), (violation, displacement) = problem.reduce(
-            (iterate.pressure, (iterate.pressure > 0).astype(np.float64)),
-            (_violations(problem, iterate.pressure, deformed), np.abs(iterate.displacement)),
+            (iterate.pressure.sum(axis=1), (iterate.pressure > 0).sum(axis=1)),
+            (
+                violations_of_rows(iterate.pressure, deformed, problem.cap),
+                np.maximum(iterate.displacement.max(axis=1), -iterate.displacement.min(axis=1)),
+            ),
         )
         scale, error = reference(displacement), search.error(force)
         residual, approach = max(max(violation, 0.0) / scale, abs(error)), search.true_approach(force)
@@ -222,10 +220,13 @@ def solve_bounded(
     return BoundedResult(iterate, approach, max_iterations, met=False, stalled=False)
 
 
-def _violations(problem: SlabProblem, pressure: FloatArray, deformed: FloatArray) -> FloatArray:
-    """Return by how much each cell violates the contact conditions [m]; negative where a cell meets an inequality."""
-    capped = np.where(pressure >= problem.cap, deformed, np.abs(deformed))
-    return np.where(pressure <= 0, -deformed, capped)
+def violations_of_rows(pressure: FloatArray, deformed: FloatArray, cap: float) -> FloatArray:
+    """Return the largest violation of the contact conditions in each row [m]; negative where no cell violates one.
+
+    Cells below the cap must not overlap, cells with pressure must not gape.
+    """
+    overlap = np.where(pressure < cap, -deformed, -math.inf).max(axis=1)
+    return np.maximum(overlap, np.where(pressure > 0, deformed, -math.inf).max(axis=1))
 
 
 def _active(problem: SlabProblem, pressure: FloatArray, deformed: FloatArray) -> BoolArray:
@@ -242,25 +243,29 @@ def _step(
     residual = np.where(active, -deformed, 0.0)
     preconditioned = np.where(active, problem.convolution.precondition(residual), 0.0)
     if last is None:
-        (product,), _ = problem.reduce((preconditioned * residual,))
+        (product,), _ = problem.reduce((np.vecdot(preconditioned, residual),))
         values, slope = preconditioned, product
     else:
         before = np.where(active, last.values, 0.0)
         (product, mixed, along), _ = problem.reduce(
-            (preconditioned * residual, preconditioned * last.residual, before * residual)
+            (
+                np.vecdot(preconditioned, residual),
+                np.vecdot(preconditioned, last.residual),
+                np.vecdot(before, residual),
+            )
         )
         factor = max(0.0, (product - mixed) / last.product)
         if product + factor * along <= 0:
             factor = 0.0
         values, slope = preconditioned + factor * before, product + factor * along
     response = problem.convolution.response(values)
-    (curvature,), _ = problem.reduce((values * response,))
+    (curvature,), _ = problem.reduce((np.vecdot(values, response),))
     if not (curvature > 0 and slope > 0):
         return _gradient_step(problem, iterate, deformed), None
     length = slope / curvature
     trial = pressure + length * values
     bounded = np.clip(trial, 0.0, problem.cap)
-    (outside,), _ = problem.reduce(((trial != bounded).astype(np.float64),))
+    (outside,), _ = problem.reduce(((trial != bounded).sum(axis=1),))
     direction = Direction(values.astype(np.float32), residual.astype(np.float32), product)
     if outside == 0:
         return Iterate(trial, iterate.displacement + length * response, exact=False), direction
@@ -284,7 +289,7 @@ def _along_segment(
     """Return another pressure, or that of least energy on the way to it; None if that is near the iterate."""
     there = problem.convolution.displacement(end)
     change, change_of_displacement = end - iterate.pressure, there - iterate.displacement
-    (slope, curvature), _ = problem.reduce((change * deformed, change * change_of_displacement))
+    (slope, curvature), _ = problem.reduce((np.vecdot(change, deformed), np.vecdot(change, change_of_displacement)))
     if not (slope < 0 and curvature > 0) or -slope <= least * curvature:
         return None
     fraction = -slope / curvature

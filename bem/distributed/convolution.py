@@ -15,9 +15,9 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-from bem.distributed.ranks import Ranks
+from bem.distributed.ranks import Ranks, edges
 from bem.distributed.spectra import ColumnSpectra, column_spectra
-from bem.distributed.transpose import transposed, transposed_back
+from bem.distributed.transpose import blocks_of_columns, to_columns, to_rows
 from bem.grid import Grid
 from bem.materials import Body
 from bem.transforms import padded_shape
@@ -25,7 +25,7 @@ from bem.transforms import padded_shape
 FloatArray = NDArray[np.float64]
 
 _BLOCK = 1 << 15
-"""Complex numbers of a block of padded columns: half a MiB, which stays in the cache of a core."""
+"""Numbers of a block of padded rows or columns: half a MiB, which stays in the cache of a core."""
 
 
 @dataclass
@@ -63,20 +63,43 @@ class SlabConvolution:
         self.count.number += 1
         nx, ny = self.grid.shape
         px, py = padded_shape(self.grid.shape, self.grid.periodic)
-        waves = scipy.fft.rfft(rows, n=py, axis=1)
-        width = waves.shape[1]
-        columns = transposed(waves, nx, self.ranks)
-        del waves
+        shape = (nx, py // 2 + 1)
+        columns = to_columns(self._rows_forward(rows, py), shape, self.ranks)
         _multiply(columns, spectrum, px)
-        return scipy.fft.irfft(transposed_back(columns, width, self.ranks), n=py, axis=1)[:, :ny]
+        return self._rows_back(to_rows(columns, shape, self.ranks), py, np.empty((len(rows), ny), rows.dtype))
+
+    def _rows_forward(self, rows: NDArray[Any], length: int) -> NDArray[Any]:
+        """Return the transforms of own rows along y, as `blocks_of_columns`."""
+        width = length // 2 + 1
+        bounds = edges(width, self.ranks.size)
+        buffer = np.empty(len(rows) * width, np.result_type(rows.dtype, np.complex64))
+        blocks = blocks_of_columns(buffer, len(rows), bounds)
+        for part in _parts(len(rows), length):
+            waves = scipy.fft.rfft(rows[part], n=length, axis=1)
+            for block, first, last in zip(blocks, bounds, bounds[1:], strict=False):
+                block[part] = waves[:, first:last]
+        return buffer
+
+    def _rows_back(self, buffer: NDArray[Any], length: int, out: NDArray[Any]) -> NDArray[Any]:
+        """Write the inverse transforms of `blocks_of_columns` along y to `out` (own rows, ny)."""
+        blocks = blocks_of_columns(buffer, len(out), edges(length // 2 + 1, self.ranks.size))
+        for part in _parts(len(out), length):
+            waves = np.concatenate([block[part] for block in blocks], axis=1)
+            out[part] = scipy.fft.irfft(waves, n=length, axis=1)[:, : out.shape[1]]
+        return out
+
+
+def _parts(count: int, length: int) -> list[slice]:
+    """Return ranges of rows or columns of a length, each of about `_BLOCK` entries."""
+    block = max(1, _BLOCK // length)
+    return [slice(first, min(first + block, count)) for first in range(0, count, block)]
 
 
 def _multiply(columns: NDArray[Any], spectrum: NDArray[Any], length: int) -> None:
     """Pass columns (nx, own columns) through an even spectrum (length // 2 + 1, own columns), in place."""
     nx, own = columns.shape
-    half, block = length // 2 + 1, max(1, _BLOCK // length)
-    for first in range(0, own, block):
-        part = slice(first, min(first + block, own))
+    half = length // 2 + 1
+    for part in _parts(own, length):
         waves = scipy.fft.fft(columns[:, part], n=length, axis=0)
         factor = spectrum[:, part].astype(waves.real.dtype, copy=False)
         waves[:half] *= factor

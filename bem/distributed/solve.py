@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from bem.arguments import is_finite, is_positive
 from bem.contact.grid_workspace import is_flat
-from bem.distributed.bounded_cg import ApproachSearch, SlabProblem, solve_bounded
+from bem.distributed.bounded_cg import ApproachSearch, SlabProblem, solve_bounded, violations_of_rows
 from bem.distributed.coarse_start import coarse_start
 from bem.distributed.convolution import SlabConvolution, slab_convolution
 from bem.distributed.ranks import Ranks, own_length, own_slice
@@ -119,7 +119,7 @@ def solve_slabs(
     else:
         start, coarse_approach = coarse_start(gap, grid, pair, ranks, load=load, approach=approach, cap=cap)
         compliance = convolution.spectra.mean_compliance / grid.cells
-        (first_force,), _ = problem.reduce((start,))
+        (first_force,), _ = problem.reduce((start.sum(axis=1),))
         search = ApproachSearch(
             (coarse_approach if approach is None else approach) - least + compliance * first_force,
             (load or 0.0) / grid.cell_area if approach is None else approach - least,
@@ -197,7 +197,8 @@ def _moments(gap: FloatArray, grid: Grid, ranks: Ranks) -> tuple[float, float, f
     """Return minimum, mean and standard deviation of the gap of all ranks [m]."""
     everywhere = ranks.all_rows(np.stack([gap.min(axis=1), gap.sum(axis=1)], axis=1), grid.shape[0])
     mean = float(everywhere[:, 1].sum()) / grid.cells
-    squares = ranks.all_rows(((gap - mean) ** 2).sum(axis=1)[:, None], grid.shape[0])
+    about = gap - mean
+    squares = ranks.all_rows(np.vecdot(about, about)[:, None], grid.shape[0])
     return float(everywhere[:, 0].min()), mean, math.sqrt(float(squares.sum()) / grid.cells)
 
 
@@ -234,14 +235,14 @@ def _certified(
     grid, cap = convolution.grid, problem.cap
     displacement = convolution.displacement(pressure)
     if convolution.spectra.mean_compliance > 0:
-        (force,), _ = problem.reduce((pressure,))
+        (force,), _ = problem.reduce((pressure.sum(axis=1),))
         displacement -= convolution.spectra.mean_compliance / grid.cells * force
     deformed = problem.gap + displacement - approach
     touching = pressure > 0
-    violation = np.where(touching, np.where(pressure >= cap, deformed, np.abs(deformed)), -deformed)
     opened = np.where(touching, 0.0, np.maximum(deformed, 0.0))
     (force, loaded, volume), (largest, highest, displaced) = problem.reduce(
-        (pressure, touching.astype(np.float64), opened), (violation, pressure, np.abs(displacement))
+        (pressure.sum(axis=1), touching.sum(axis=1), opened.sum(axis=1)),
+        (violations_of_rows(pressure, deformed, cap), pressure.max(axis=1), np.abs(displacement).max(axis=1)),
     )
     found = force * grid.cell_area
     load_error = 0.0 if load is None or found == load else abs(found - load) / load if load > 0 else math.inf

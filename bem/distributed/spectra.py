@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.convolution import pressure_terms
-from bem.distributed.ranks import Ranks, computed_on_first, own_slice
-from bem.distributed.transpose import transposed
+from bem.distributed.ranks import Ranks, computed_on_first, edges, own_slice
+from bem.distributed.transpose import blocks_of_columns, to_columns
 from bem.grid import Grid
 from bem.kernels import half_space
 from bem.kernels.coefficients import Load, surface_coefficients
@@ -99,7 +99,11 @@ def _coefficients(grid: Grid, bodies: tuple[Body, ...], padded: tuple[int, int],
             ranks.scatter_rows(_table_on_first(grid, body, ranks), own)
         table += factor * own
     along_y = half_spectrum(table, padded[1], 1)
-    by_columns = transposed(along_y, nx, ranks)
+    width = padded[1] // 2 + 1
+    buffer, bounds = np.empty(along_y.size), edges(width, ranks.size)
+    for block, first, last in zip(blocks_of_columns(buffer, len(along_y), bounds), bounds, bounds[1:], strict=False):
+        block[:] = along_y[:, first:last]
+    by_columns = to_columns(buffer, (nx, width), ranks)
     return np.ascontiguousarray(half_spectrum(np.ascontiguousarray(by_columns.T), padded[0], 1).T)
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from bem.distributed.ranks import Ranks, edges
@@ -17,31 +16,36 @@ from bem.distributed.ranks import Ranks, edges
 Array = NDArray[Any]
 
 
-def transposed(rows: Array, total: int, ranks: Ranks) -> Array:
-    """Return own columns of all rows (total, own columns) from own rows of all columns (own rows, columns)."""
-    if ranks.size == 1:
-        return ranks.exchange(rows.reshape(-1), [rows.size], [rows.size]).reshape(rows.shape)
-    bounds, row_bounds = edges(rows.shape[1], ranks.size), edges(total, ranks.size)
-    own = bounds[ranks.rank + 1] - bounds[ranks.rank]
-    blocks = [rows[:, first:last].ravel() for first, last in pairwise(bounds)]
-    sent = [block.size for block in blocks]
-    received = [(last - first) * own for first, last in pairwise(row_bounds)]
-    return ranks.exchange(np.concatenate(blocks), sent, received).reshape(total, own)
-
-
-def transposed_back(columns: Array, width: int, ranks: Ranks) -> Array:
-    """Return own rows of all columns (own rows, width) from own columns of all rows: the inverse of `transposed`."""
-    if ranks.size == 1:
-        return ranks.exchange(columns.reshape(-1), [columns.size], [columns.size]).reshape(columns.shape)
-    total, own_columns = columns.shape
-    bounds, row_bounds = edges(width, ranks.size), edges(total, ranks.size)
-    own_rows = row_bounds[ranks.rank + 1] - row_bounds[ranks.rank]
-    sent = [(last - first) * own_columns for first, last in pairwise(row_bounds)]
-    received = [own_rows * (last - first) for first, last in pairwise(bounds)]
-    blocks = ranks.exchange(np.ascontiguousarray(columns).reshape(-1), sent, received)
-    rows = np.empty((own_rows, width), columns.dtype)
-    start = 0
-    for first, last, size in zip(bounds, bounds[1:], received, strict=False):
-        rows[:, first:last] = blocks[start : start + size].reshape(own_rows, last - first)
+def blocks_of_columns(buffer: Array, rows: int, bounds: list[int]) -> list[Array]:
+    """Return views of a one-dimensional buffer, one above the other: for each rank the (rows, its columns)."""
+    views, start = [], 0
+    for first, last in pairwise(bounds):
+        size = rows * (last - first)
+        views.append(buffer[start : start + size].reshape(rows, last - first))
         start += size
-    return rows
+    return views
+
+
+def to_columns(buffer: Array, shape: tuple[int, int], ranks: Ranks) -> Array:
+    """Exchange own rows of all columns for own columns of all rows (rows of all ranks, own columns).
+
+    buffer : the own rows as `blocks_of_columns`. shape : (rows of all ranks, columns of all ranks).
+    """
+    sent, received, own = _sizes(shape, ranks)
+    return ranks.exchange(buffer, sent, received).reshape(shape[0], own)
+
+
+def to_rows(columns: Array, shape: tuple[int, int], ranks: Ranks) -> Array:
+    """Exchange own columns of all rows for own rows of all columns, as `blocks_of_columns`: the way back."""
+    received, sent, _ = _sizes(shape, ranks)
+    return ranks.exchange(columns.reshape(-1), sent, received)
+
+
+def _sizes(shape: tuple[int, int], ranks: Ranks) -> tuple[list[int], list[int], int]:
+    """Return numbers of entries of own rows by the columns of each rank, of own columns by rows, and own columns."""
+    rows, columns = edges(shape[0], ranks.size), edges(shape[1], ranks.size)
+    own_rows = rows[ranks.rank + 1] - rows[ranks.rank]
+    own_columns = columns[ranks.rank + 1] - columns[ranks.rank]
+    by_columns = [own_rows * (last - first) for first, last in pairwise(columns)]
+    by_rows = [own_columns * (last - first) for first, last in pairwise(rows)]
+    return by_columns, by_rows, own_columns
