@@ -17,6 +17,7 @@ from bem.materials import Body, Material, contact_modulus
 from bem.profiles import Profile, WheelOnRail, catalogued_profile, gap_over_tangent_plane
 from bem.profiles.curved_contact import solve_curved_contact
 from bem.profiles.curved_surface import CurvedSurface
+from bem.profiles.gap import gap_along_rail, rows_on_rail
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.tangential import solve_rolling
 from bem.verification.closed_forms import STEEL, curve
@@ -188,6 +189,31 @@ def manchester_benchmark() -> list[Curve]:
     ]
 
 
+GROOVES = {0.01025: 527.4e6, 0.01010: 405.9e6}
+"""Radius of a groove -> highest pressure of a wheel with a lateral radius of 10 mm in it: cases 5 and 6 of `groove_li`
+in the test bank of CONTACT (open source, revision 2447), with influence numbers of conforming bodies (Blanco-Lorenzo,
+version 3). Wheel of 420 mm, shear modulus 80 GPa, Poisson's ratio 0.28, 10 kN, cells of 0.0958 by 0.25 mm. With those
+of half-spaces on its curved surface CONTACT has 530.2 and 409.3 MPa."""
+
+
+def wheel_in_groove() -> list[Curve]:
+    """A wheel in two grooves, half-angles of the contact of 16 and 24 degrees, beside CONTACT's conforming bodies."""
+    steel = Material("steel", youngs_modulus=2 * 80e9 * 1.28, poissons_ratio=0.28)
+    grid, found = Grid((101, 51), (0.095833e-3, 0.25e-3)), []
+    for radius in GROOVES:
+        placed = WheelOnRail(circle(0.01, 1), circle(radius, 1), 0.42)
+        point = placed.contact_points[0]
+        rows = rows_on_rail(placed, point, grid.y)
+        surface = CurvedSurface(grid, rows.y, rows.z, rows.angle, (Body(steel), Body(steel)))
+        gap = gap_along_rail(placed, point, grid)
+        found.append(float(solve_curved_contact(gap, surface, point.angle, load=1e4).contact.pressure.max()))
+    radii = np.array(list(GROOVES))
+    line = np.column_stack([radii, 0 * radii, 0 * radii])
+    reason = "half-spaces turned with the surface for conforming bodies: 0.4 and 0.8 %"
+    highest = np.array(list(GROOVES.values()))
+    return [curve("pressure of cells, highest", "over radius", "Pa", line, np.array(found), highest, 8e-3, reason)]
+
+
 def gates() -> list[Gate]:
     """Gates of wheel and rail profiles."""
     return [
@@ -208,6 +234,12 @@ def gates() -> list[Gate]:
             "closed_forms",
             "Wheel S1002 on UIC 60, tread and flange root (CONTACT).",
             manchester_benchmark,
+        ),
+        Gate(
+            "wheel-rail-groove",
+            "closed_forms",
+            "A wheel in conforming grooves, on the curved surface (CONTACT).",
+            wheel_in_groove,
         ),
         Gate(
             "wheel-rail-shaft-in-hole",
