@@ -59,6 +59,7 @@ _LABELS = {
     "lowest_load": "pull-off force (lowest load)",
     "jkr_lowest_load": "pull-off force by JKR (soft spheres)",
     "dmt_lowest_load": "pull-off force by DMT (stiff spheres)",
+    "tabor_parameter": "Tabor's parameter",
     "friction_work": "friction work per distance rolled",
     "resolved_work": "share of the friction work in its map",
     "Sq": "Sq of both surfaces",

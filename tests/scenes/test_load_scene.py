@@ -77,7 +77,7 @@ def test_the_plain_scene_is_good():
         (changed(lower__surface={"kind": "measured", "path": "nowhere.di"}), ["lower.surface.path", "nowhere.di", "no such file"]),  # noqa: E501
         (changed(grid__shape=0), ["grid.shape = 0", "greater than or equal to 1"]),
         (changed(grid__shape=[32, -1]), ["grid.shape[1] = -1"]),
-        (changed(grid__shape=[32, 32, 32]), ["grid.shape", "at most 2"]),
+        (changed(grid__shape=[32, 32, 32]), ["grid.shape", "3 values; allowed: 2"]),
         (changed(grid__shape=32.5), ["grid.shape = 32.5", "integer"]),
         (changed(grid__spacing="0 nm"), ["grid.spacing", "greater than 0 m"]),
         (changed(grid__spacing=float("nan")), ["grid.spacing", "not finite"]),

@@ -111,6 +111,13 @@ def test_a_scene_grows_a_film_on_a_stack_and_says_what_is_known_of_it():
         note.values["reason"] for note in scene_warnings(examine(scene)) if note.code == TRIBOFILM_ON_COATING.code
     }
     assert "hardness" not in reasons
+    for load, told in (("5 N", False), ("100 N", True)):  # a smooth ball far below both hardnesses, and one near
+        smooth = ("lower.surface=smooth", "upper.surface=smooth", f'rubbing.loads=["{load}"]', 'shape.radius="2 mm"')
+        scene, _ = plan_scene("tribofilm-ball", (STACK, *smooth))
+        found = [note for note in scene_warnings(examine(scene)) if note.code == TRIBOFILM_ON_COATING.code]
+        pressure = examine(scene).cases[0].smooth.maximum_pressure
+        assert (pressure > 3e9) is told  # half of the hardness of the bare substrate, 6 GPa
+        assert any(note.where == "film.hardness.substrate" for note in found) is told
 
 
 def test_hardness_of_a_film_fades_from_the_coatings():

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError
 from bem.materials import contact_modulus, softer_hardness
+from bem.quantities import si
 from bem.scenes import build
 from bem.scenes.axes import changed
 from bem.scenes.common import (
@@ -129,14 +130,15 @@ class ContactControl(Table):
     def words(self) -> str:
         """The control, for a reader."""
         if self.load is not None:
-            return f"load {self.load:g} N"
+            return f"load {si(self.load, 'N')}"
         if self.mean_pressure is not None:
-            return f"mean pressure {self.mean_pressure:g} Pa"
+            return f"mean pressure {si(self.mean_pressure, 'Pa')}"
         if self.hertz_pressure is not None:
-            return f"Hertz pressure {self.hertz_pressure:g} Pa"
+            return f"Hertz pressure {si(self.hertz_pressure, 'Pa')}"
         if self.approach is not None:
-            return f"approach {self.approach:g} m"
-        return f"mean gap {self.mean_gap:g} m"
+            return f"approach {si(self.approach, 'm')}"
+        assert self.mean_gap is not None
+        return f"mean gap {si(self.mean_gap, 'm')}"
 
 
 class PressedScene(SceneModel):
