@@ -29,6 +29,8 @@ _HERE = Path(__file__).resolve().parent
 _PACKAGE = __name__.partition(".")[0] + "."
 SECONDS = 40.0
 """Approximate time to compile the loops of a contact on two cores [s]."""
+FILM_SECONDS = {"line": 5.0, "point": 45.0}
+"""Approximate processor time to compile the loops of a film alone, of a cylinder and of a ball [s]."""
 WEAR_SECONDS = 65.0
 """Approximate processor time to compile the loops of film, stresses and particles of a running-in beside those [s]."""
 

@@ -26,8 +26,7 @@ def register(app: typer.Typer) -> None:
           bem plan rough-contact --set grid.shape=8192
         """
         from bem.cli._terminal import print_text, show_remarks, show_warnings
-        from bem.cli.run import running_in_is_cold, tell_changed_size
-        from bem.compiled import SECONDS, WEAR_SECONDS, is_cold
+        from bem.cli.run import seconds_to_compile, tell_changed_size
         from bem.runs import plan_scene
         from bem.scenes.checks import examine, scene_warnings
         from bem.scenes.planner import available_memory, show_bytes
@@ -43,7 +42,7 @@ def register(app: typer.Typer) -> None:
         _show_steps(planned)
         show_warnings(warnings)
         show_remarks(warnings)
-        seconds = SECONDS * is_cold() + WEAR_SECONDS * running_in_is_cold(resolved)
+        seconds = seconds_to_compile(resolved)
         if seconds > 0:
             print_text(
                 f"not compiled yet: the first run takes about {seconds:.0f} s longer (`bem warm-up` does it now)"

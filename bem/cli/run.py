@@ -80,8 +80,39 @@ def running_in_is_cold(scene: Any) -> bool:
 
     if scene.kind != "running-in":
         return False
-    film = _RUNNING_IN["line" if scene.contact.point_radii is None else "point"]
-    return is_cold(film) or (scene.wear.finds_particles.needs_strength and is_cold(_RUNNING_IN["wear"]))
+    return is_cold(_RUNNING_IN[_film_of(scene) or "line"]) or (
+        scene.wear.finds_particles.needs_strength and is_cold(_RUNNING_IN["wear"])
+    )
+
+
+_SAID = 10.0
+"""Seconds of compiling from which a run says that it compiles."""
+
+
+def seconds_to_compile(scene: Any) -> float:
+    """Return about how much longer the first run of a scene takes [s]: its loops that are not compiled yet.
+
+    Loops are those of a contact, and of the film or of the running-in that the scene's kind needs besides; a run of
+    another kind leaves those to be compiled.
+    """
+    from bem.compiled import FILM_SECONDS, SECONDS, WEAR_SECONDS, is_cold
+
+    seconds = SECONDS * is_cold()
+    if running_in_is_cold(scene):
+        return seconds + WEAR_SECONDS
+    film = _film_of(scene)
+    return seconds + (FILM_SECONDS[film] if film is not None and is_cold(_RUNNING_IN[film]) else 0.0)
+
+
+def _film_of(scene: Any) -> str | None:
+    """Return whether a scene has the film of a cylinder, "line", or of a ball, "point"; None of one without a film."""
+    if scene.kind in ("traction", "film"):
+        return "line"
+    if scene.kind.startswith("point-film"):
+        return "point"
+    if scene.kind in ("friction", "running-in", "running-in-life"):
+        return "line" if scene.contact.point_radii is None else "point"
+    return None
 
 
 def prepare_first_run(scene: str, settings: Sequence[str], accuracy: str | dict[str, str | float] | None) -> None:
@@ -102,7 +133,7 @@ def prepare_first_run(scene: str, settings: Sequence[str], accuracy: str | dict[
     resolved, _ = plan_scene(scene, settings, accuracy)
     if cold and resolved.kind == "contact":
         compile_with_progress(main=True)
-    elif cold or running_in_is_cold(resolved):
+    elif seconds_to_compile(resolved) >= _SAID:
         typer.echo("bem: compiling loops, once for this installation (`bem warm-up` compiles all of them)", err=True)
 
 

@@ -14,7 +14,7 @@ import pytest
 from numba import types
 
 from bem import compiled
-from bem.cli.run import running_in_is_cold
+from bem.cli.run import running_in_is_cold, seconds_to_compile
 from bem.runs import plan_scene
 from bem.startup.signatures import SignatureRecord, SignatureWriter
 from bem.warm_up import RECORD, scenes
@@ -391,6 +391,30 @@ def test_a_running_in_has_loops_that_a_warm_contact_has_not_compiled(tmp_path, m
     assert running_in_is_cold(oiled)  # stresses and particles are not there yet
     compile_one("wear", "segmentation")
     assert not running_in_is_cold(oiled)
+
+
+def test_every_kind_says_how_long_its_own_loops_take(tmp_path, monkeypatch):
+    """The hint was gone after the first run of any kind, before loops of films were compiled."""
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    version = f"py{sys.version_info[0]}{sys.version_info[1]}"
+
+    def compile_one(package, module):
+        folder = tmp_path / f"bem.{package}.{module}-0" / package.rpartition(".")[2]
+        folder.mkdir(parents=True)
+        (folder / f"{module}.loop-1.{version}.nbi").write_text("")
+
+    names = ("hertz-sphere", "traction-curve", "film-ball", "stribeck-ball-on-disc", "running-in-ball")
+    scenes = {name: plan_scene(name)[0] for name in names}
+    cold = {name: seconds_to_compile(scene) for name, scene in scenes.items()}
+    compile_one("transforms", "loops")
+    warm = {name: seconds_to_compile(scene) for name, scene in scenes.items()}
+    assert all(cold[name] == warm[name] + compiled.SECONDS for name in names)
+    assert warm["hertz-sphere"] == 0
+    assert warm["traction-curve"] == compiled.FILM_SECONDS["line"]
+    assert warm["film-ball"] == warm["stribeck-ball-on-disc"] == compiled.FILM_SECONDS["point"]
+    assert warm["running-in-ball"] == compiled.WEAR_SECONDS
+    compile_one("lubrication.point", "reynolds")
+    assert seconds_to_compile(scenes["film-ball"]) == seconds_to_compile(scenes["stribeck-ball-on-disc"]) == 0
 
 
 def test_a_numba_that_compiles_nothing_is_one_message(tmp_path):
