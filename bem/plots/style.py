@@ -127,6 +127,10 @@ def height_limit(heights: NDArray[np.float64]) -> float:
     return limit if limit > 0 else largest_of(heights)
 
 
+_NARROW = 0.4
+"""Width over height of a map in equal units below which labels along x would overlap and are turned."""
+
+
 def field_axes(
     axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], *, along: str | None = None
 ) -> tuple[float, float, float, float]:
@@ -147,6 +151,9 @@ def field_axes(
     axes.set_ylabel(label("y", unit))
     ratio = (extent[1] - extent[0]) / (extent[3] - extent[2])
     axes.set_aspect("equal" if 0.2 < ratio < 5 else "auto")
+    if 0.2 < ratio < _NARROW:
+        axes.tick_params(axis="x", labelrotation=90)
+        axes.locator_params(axis="x", nbins=3)
     for side in ("top", "right"):
         axes.spines[side].set_visible(True)
     return extent

@@ -1,5 +1,7 @@
 """Colours that say what is there: percentiles for heights, a word on maps of one colour, no bands between depths."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -70,3 +72,24 @@ def test_the_first_axis_of_a_map_is_what_the_results_call_it(said, written):
         field_axes(axes, x, x)
     assert axes.get_xlabel().startswith(f"{written} ")
     assert along_x() == "x, sliding"
+
+
+@pytest.mark.parametrize("ratio", [0.25, 0.35, 0.5, 1.0])
+def test_labels_along_x_of_a_narrow_map_do_not_overlap(ratio):
+    """Those of a long ellipse under a ball lay on each other."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(7.6, 3.4), layout="constrained")
+    axes = figure.subplots(1, 2)[0]
+    y = np.linspace(-1.5e-3, 1.5e-3, 61)
+    field_axes(axes, np.linspace(-0.6, 0.4, 31) * ratio * 3e-3, y)
+    axes.set_xlim(-0.6 * ratio * 3, 0.4 * ratio * 3)
+    axes.set_ylim(-1.5, 1.5)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    low, high = axes.get_xlim()
+    labels = [one for one in axes.get_xticklabels() if low <= one.get_position()[0] <= high]
+    boxes = sorted((one.get_window_extent(canvas.get_renderer()) for one in labels), key=lambda box: box.x0)
+    assert len(boxes) > 1
+    assert all(left.x1 < right.x0 for left, right in pairwise(boxes))
