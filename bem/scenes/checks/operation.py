@@ -15,7 +15,6 @@ from bem.scenes.checks.registry import outcome_check, scene_check
 from bem.scenes.checks.words import numbers
 from bem.scenes.common import SmoothSurface
 from bem.scenes.context import Outcome
-from bem.scenes.lubrication import slide_roll_ratio
 
 _LIKE = 1.5
 """Ratio of hardnesses up to which a film's curve begins at the coating's own."""
@@ -37,6 +36,8 @@ def surfaces_only_roll(facts: Facts) -> Iterator[Note]:
     """A Stribeck curve of pure rolling has no friction of asperities: what is left is that of the film's rolling."""
     if not facts.of_kind("friction"):
         return
+    from bem.scenes.lubrication import slide_roll_ratio
+
     ratio = float(slide_roll_ratio(facts.scene.speeds.other_over_flat))
     if abs(ratio) < _ROLLS:
         yield PURE_ROLLING("speeds", ratio=ratio)
