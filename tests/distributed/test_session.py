@@ -61,6 +61,8 @@ def test_a_refused_contact_leaves_the_ranks_ready_for_the_next():
         return session.solve_contact(gap, operator, load=1e-3)
 
     assert led(2, both).load == pytest.approx(1e-3, rel=1e-8, abs=0)
+    with pytest.raises(InfeasibleError):  # that ends the run, without ending the processes of the others
+        led(2, lambda session: session.solve_contact(gap, operator, load=1.0, hardness=1e9))
 
 
 def test_a_failed_rank_ends_all(monkeypatch, capsys):

@@ -5,10 +5,10 @@ import pytest
 from thread_ranks import on_ranks
 
 from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
-from bem.distributed.bounded_cg import ApproachSearch
+from bem.distributed.bounded_cg import ApproachSearch, SlabProblem
 from bem.distributed.convolution import slab_convolution
 from bem.distributed.ranks import OneRank, own_slice
-from bem.distributed.solve import solve_slabs
+from bem.distributed.solve import _certified, solve_slabs
 from bem.errors import InfeasibleError, InputError, Status
 
 STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
@@ -201,6 +201,24 @@ def test_refusals_are_raised_on_all_ranks():
     raised(InputError, "tolerance", load=1.0, tolerance=2.0)
     raised(InfeasibleError, "above hardness x area", load=1.0, hardness=1e9)
     raised(InfeasibleError, "cannot come closer", approach=1e-6)
+
+
+def test_an_iteration_limit_is_told_with_the_residual_of_what_is_returned():
+    """The certificate recomputes violation and load: of a pressure whose load is a hundredth off, at least that."""
+    grid, gap = Grid((12, 10), (1e-6, 1e-6)), rough_gap((12, 10))
+    stopped = solve_slabs(gap, grid, STEEL, OneRank(), load=0.02, max_iterations=2)
+    assert stopped.status is Status.MAX_ITERATIONS
+    assert stopped.iterations == 2
+    assert stopped.residual > 1e-4
+    solved_load = solve_slabs(gap, grid, STEEL, OneRank(), load=0.02)
+    problem = SlabProblem(slab_convolution(grid, (STEEL,), OneRank()), gap - gap.min(), np.inf)
+    certified = _certified(
+        problem, solved_load.pressure, solved_load.approach - gap.min(), least=gap.min(), load=0.02 * 1.01,
+        reference=lambda displacement: gap.std(), tolerance=1e-8, unmet=Status.STALLED, rows=slice(0, 12),
+        iterations=0, unit=1.0,
+    )  # fmt: skip
+    assert certified.residual == pytest.approx(0.01 / 1.01, rel=1e-6, abs=0)
+    assert certified.status is Status.STALLED
 
 
 def test_iterations_hardly_grow_with_the_grid():

@@ -18,6 +18,7 @@ GUARDS: dict[str, list[str]] = {
     "tribofilm": ["tests/tribofilm", "tests/scenes/test_tribofilm_kind.py"],
     "surfaces": ["tests/surfaces"],
     "particles": ["tests/particles"],
+    "distributed": ["tests/distributed"],
     "profiles": ["tests/profiles", "tests/scenes/test_wheel_rail.py"],
     "viscoelastic": ["tests/viscoelastic"],
     "tangential": ["tests/tangential", "tests/scenes/test_partial_slip_kind.py", "tests/scenes/test_rolling_kind.py"],
