@@ -722,6 +722,29 @@ def test_a_swing_with_the_place_of_the_roughness_is_no_drift():
 
 
 @pytest.mark.internal
+def test_a_loop_that_wore_nothing_is_not_unsettled():
+    """Friction alone then moves with the place; particles of one cycle are wear."""
+    facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["drifting_at_the_last_cycle"]
+    moved = loop_outcome(100.0, (0.13, 0.12, 0.11, 0.1))
+    for number, told in ((0.0, False), (1.0, True)):
+        counts = Variable(("speed", "cycle"), np.array([[0.0, 0.0, 0.0, number], [0.0] * 4]), "1", "particles")
+        series = {**moved.variables, "particles_over_cycles": counts}
+        assert bool(list(check(facts, Outcome(moved.summary, series)))) == told
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize(
+    ("stress", "words"),
+    [(0.3e9, "particle: 300 MPa of the 386 MPa that it takes"), (9e9, "the 386 MPa that it takes are exceeded below")],
+)
+def test_a_criterion_that_removed_nothing_says_stress_and_strength(stress, words):
+    facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["nothing_comes_off"]
+    count = len(facts.cases)
+    summary = {"particles_per_cycle": [0.0] * count, "largest_stress_Pa": [stress] * count}
+    assert words in " ".join(note.line for note in check(facts, Outcome(summary, {})))
+
+
+@pytest.mark.internal
 def test_a_loop_shorter_than_a_turn_says_so_only_where_rough_bodies_move():
     check, short = OUTCOME_CHECKS["friction_that_swings_with_the_place"], swinging_outcome(0.002, count=20)
     (told,) = check(facts_of("running-in-stribeck"), short)

@@ -367,8 +367,10 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[Note]:
 def _beside_strength(case: Case, stress: float) -> str:
     """Return the largest stress beside the strength in a few words; none where either is not known or reached."""
     strengths = [material.yield_stress for material in case.wearing if material.yield_stress is not None]
-    if not strengths or not np.isfinite(stress) or stress > min(strengths):
+    if not strengths or not np.isfinite(stress):
         return ""
+    if stress > min(strengths):
+        return f": the {si(min(strengths), 'Pa')} that it takes are exceeded below the surface only"
     return f": {si(stress, 'Pa')} of the {si(min(strengths), 'Pa')} that it takes"
 
 
