@@ -413,6 +413,8 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     rows.append(("time", f"{summary['wall_time_s']:.1f} s"))
     table(("figure", "value"), rows, title=f"{summary['scene']} ({summary['kind']})")
     print_lists(summary, known)
+    if summary.get("combined_Sdq") is not None and any(f"{name}_error" in summary for name in known):
+        print_text("± is the numerical error; how figures scatter from place to place of the surface is not in it.")
     for item in input_share_tables(summary):
         table(item.head, item.rows, title=item.title, right=range(1, len(item.head)))
 

@@ -87,12 +87,12 @@ def register(app: typer.Typer) -> None:
         if scale is not None and not surfaces:
             raise InputError("--spacing, --height-unit: there is no measured surface; allowed: with --lower or --upper")
         maps = _maps(surfaces, path.resolve().parent, scale)
+        _print_notes(maps)
         text = element or scene_template(kind, everything=everything, surfaces=maps)
         if path.exists():
             raise ResultsError(f"{path}: exists; give another FILE")
         if not path.parent.is_dir():
             raise ResultsError(f"{path.parent}: no such folder")
-        _print_notes(maps)
         write_text(path, text)
         after = f"bem element {path}" if element else f"bem plan {path}; bem run {path}"
         print_written(path)
@@ -109,8 +109,8 @@ def _maps(files: dict[str, str], folder: Path, scale: MapScale | None) -> dict[s
 
 
 def _print_notes(maps: dict[str, MeasuredMap]) -> None:
-    """Say what makes two maps a poor pair."""
-    if len(maps) < 2:
+    """Say what is doubtful of maps."""
+    if not maps:
         return
     from bem.cli._terminal import print_text
     from bem.scenes.own_surfaces import notes_on_maps

@@ -291,6 +291,7 @@ def _show(surface: Surface, name: str) -> None:
     from bem.surfaces.measurements import finite_size_of, periodic_axes
 
     d = describe_surface(surface.heights, surface.spacing, periodic=periodic_axes(surface))
+    _print_doubt(d.Sq, d.Sdq)
     error = finite_size_of(surface)
     told = surface.metadata.get("spacing_in_file")
 
@@ -332,6 +333,16 @@ def _show(surface: Surface, name: str) -> None:
                 "and a larger map may have a larger one. Remove spikes, measure a larger area, or filter waviness out."
             )
     _hints(surface)
+
+
+def _print_doubt(rms_height: float, rms_slope: float, name: str = "") -> None:
+    """Print a line where the unit of heights is doubted; `name` : of the file, where there are several."""
+    from bem.cli._terminal import print_text
+    from bem.scenes.maps import height_unit_note
+
+    note = height_unit_note(name, rms_height, rms_slope)
+    if note is not None:
+        print_text(f"caution: {note}")
 
 
 def _hints(surface: Surface, name: str = "") -> None:
@@ -437,6 +448,8 @@ def _show_measurements(files: list[Path], surfaces: list[Surface], *, json: bool
         }
         print(writer.dumps({"files": [str(file) for file in files], "parameters": parameters, "spectrum": spectrum}))
         return
+    for file, rms, steepness in zip(files, *(found.parameters[key].values for key in ("Sq", "Sdq")), strict=True):
+        _print_doubt(rms, steepness, file.name)
     rows = []
     for name, words, how in _OF_SEVERAL:
         one = found.parameters.get(name)

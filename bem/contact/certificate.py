@@ -20,6 +20,7 @@ from bem.contact.contact_area import Region, contact_region, plastic_region
 from bem.contact.grid_workspace import GridResult, is_flat
 from bem.contact.peak_pressure import highest_pressure
 from bem.contact.problem import Request, Units
+from bem.contact.regions import narrow_share
 from bem.contact.solution import ContactSolution
 from bem.convolution import DisplacementOperator
 from bem.errors import Status
@@ -157,12 +158,27 @@ def regions_of(
     least = load / cap  # the pressure is nowhere above the cap
     doubt: tuple[Note, ...] = ()
     if contact.elastic_edge_area < _SHORT * least and contact.counted_area > _MANY * least:
-        doubt = (CONTACT_UNRESOLVED(times=contact.counted_area / least, of="", reason="spots"),)
+        doubt = (unresolved_spots(pressure > 0, contact.counted_area / least, grid.periodic),)
     if not capped:
         return contact, Region(0.0, 0.0, 0.0, 0.0, 0.0), doubt
     plastic = plastic_region(pressure, deformed, undeformed, cap, grid, modulus)
     # cells at the cap carry no more than the load
     return contact, plastic.of_area(min(plastic.area, least)), doubt
+
+
+def unresolved_spots(touching: NDArray[np.bool_], times: float, periodic: tuple[bool, bool], of: str = "") -> Note:
+    """Return the note on an area of contact that the cells do not determine.
+
+    It calls the spots one or two cells wide where those are most of the area, else the edges unresolved.
+
+    touching : (nx, ny), cells in contact. times : their area over the load over the hardness. of : which contact.
+    """
+    narrow = narrow_share(touching, periodic)
+    return CONTACT_UNRESOLVED(times=times, of=of, narrow=narrow, reason="spots" if narrow > _MOSTLY else "edges")
+
+
+_MOSTLY = 0.5
+"""Share of the contact area in spots of one or two cells above which these, and not the edges, are said to decide."""
 
 
 def _relative(error: float, reference: float) -> float:

@@ -19,6 +19,28 @@ def count_spots(pressure: FloatArray, grid: Grid) -> int:
     return int(_join_runs(np.ascontiguousarray(pressure), grid.periodic)[1])
 
 
+def narrow_share(touching: NDArray[np.bool_], periodic: tuple[bool, bool]) -> float:
+    """Return the share of the cells in contact (nx, ny) in spots that are one or two cells wide.
+
+    A wider spot has a cell whose four neighbours touch as well; on a grid of a single row, whose two neighbours do.
+    """
+    grid = Grid((touching.shape[0], touching.shape[1]), (1.0, 1.0), periodic=periodic)
+    labels = label_spots(touching.astype(np.float64), grid)
+    inside = touching.copy()
+    for axis in (0, 1):
+        if touching.shape[axis] == 1:
+            continue
+        for step in (-1, 1):
+            beside = np.roll(touching, step, axis)
+            if not periodic[axis]:
+                beside[(slice(None),) * axis + (0 if step == 1 else -1,)] = False
+            inside &= beside
+    areas = np.bincount(labels[touching])
+    wide = np.unique(labels[inside])
+    total = int(areas.sum())
+    return 1.0 - float(areas[wide].sum()) / total if total else 0.0
+
+
 def label_spots(pressure: FloatArray, grid: Grid) -> NDArray[np.int32]:
     """Label the spots of a pressure (nx, ny): 1, 2, ... in the order of their first cells, 0 outside contact."""
     pressure = np.ascontiguousarray(pressure)

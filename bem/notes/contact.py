@@ -115,7 +115,22 @@ CONTACT_UNRESOLVED = define(
             "Take a finer grid; of a measured surface measure with a finer spacing, as finer cells only interpolate.",
             headline="Contact spots are one or two cells wide; their area is uncertain.",
         ),
+        "edges": Reason(
+            "The true area lies between the load over the hardness and the counted area{of}, which is {times:.2f}"
+            " times larger; spots of one or two cells are {narrow:%} of it, the rest is at the edges of wider ones.",
+            "Take a finer grid; of a measured surface measure with a finer spacing, as finer cells only interpolate.",
+            headline="The cells do not resolve the edges of contact spots; the area is uncertain.",
+        ),
     },
+)
+FEW_SPOTS = define(
+    "few-spots",
+    INFO,
+    "Few contact spots: maps of other places would give other figures.",
+    "There are {spots}. Real areas and pressures of other places of the surface scatter by about half of "
+    "1/sqrt(spots), {scatter:%}, and by more where a few high summits carry the load; error bars are numerical and "
+    "leave this out.",
+    "Run maps of several places and compare them, or take a larger map.",
 )
 _ZONE = "At the edge of a contact it is {zone:si m} wide, for cells of {cell:si m}:"
 ADHESIVE_ZONE_UNRESOLVED = define(

@@ -94,17 +94,22 @@ MAP_ALTERED = define(
             CAUTION,
             headline="The measured map has outliers.",
         ),
-        "mirror": Reason("It is mirrored, and symmetric about its seams.", headline=_PERIODIC),
+        "mirror": Reason(
+            "It is mirrored, and symmetric about its seams: the patch holds the map {copies} times, and load, area and "
+            "number of contact spots are those of all of them.",
+            headline=_PERIODIC,
+        ),
         "seams": Reason(
             "The step where its ends meet along {along} is spread out (Moisan 2011), which changes the heights by "
-            "{change:si m} rms.",
+            "{change:si m} rms ({share:%} of Sq).",
             headline=_PERIODIC,
         ),
         "seams-large": Reason(
-            "The step where its ends meet is spread out (Moisan 2011); Sq is then {height:si m}.",
+            "The step where its ends meet is spread out (Moisan 2011): {change:si m} rms, {share:%} of its Sq, which "
+            "is then {height:si m}.",
             "{action}",
             CAUTION,
-            headline="Making the map periodic changed its heights by {change:si m} rms.",
+            headline="Making the map periodic changed its heights by {share:%} of Sq.",
         ),
         "scaled": Reason(
             "They are multiplied by {factor:.2g} to have Sq {height:si m}, and slopes with them.",
@@ -113,6 +118,16 @@ MAP_ALTERED = define(
             headline="Measured heights are scaled, and their slopes with them.",
         ),
     },
+)
+HEIGHT_UNIT_DOUBTFUL = define(
+    "height-unit-doubtful",
+    CAUTION,
+    "The heights of the map are unusual: is the height unit right?",
+    reasons={
+        "steep": "Its rms slope Sdq is {slope:.3g} and its Sq {height:si m}; real surfaces stay below {limit:g}.",
+        "smooth": "Its rms height Sq is {nanometres:.2g} nm, the size of an atom; 0.5 nm and more are usual.",
+    },
+    action="Check the unit: height_unit in a scene, --height-unit of the commands.",
 )
 MAP_SPACING_GIVEN = define(
     "map-spacing-given",

@@ -17,10 +17,11 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.notes import Note
-from bem.notes.scenes import MAP_ALTERED, MAP_SPACING_GIVEN
+from bem.notes.scenes import HEIGHT_UNIT_DOUBTFUL, MAP_ALTERED, MAP_SPACING_GIVEN
 from bem.numerics.cache import KeptValues
 from bem.scenes.common import MeasuredSurface
 from bem.scenes.paths import checksum_of
+from bem.surfaces.describe import STEEPEST_SURFACE, height_unit_doubt
 from bem.surfaces.examples import example_path
 
 if TYPE_CHECKING:
@@ -64,6 +65,21 @@ def read_map(surface: MeasuredSurface) -> Surface:
         return read()
     key = ("map", content, surface.path, *asked.values(), surface.crop, surface.crop and surface.centre)
     return KEPT.of(key, read)
+
+
+def height_unit_note(where: str, rms_height: float, rms_slope: float) -> Note | None:
+    """Return the note on a map whose heights are probably in another unit; None of others. rms_height : Sq [m]."""
+    doubt = height_unit_doubt(rms_height, rms_slope)
+    if not doubt:
+        return None
+    return HEIGHT_UNIT_DOUBTFUL(
+        where,
+        height=rms_height,
+        nanometres=1e9 * rms_height,
+        slope=rms_slope,
+        limit=STEEPEST_SURFACE,
+        reason=doubt,
+    )
 
 
 @dataclass(frozen=True)
@@ -157,7 +173,7 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", MirrorWarning)
             found = mirror_to_periodic(found, axes=axes)
-        note(MAP_ALTERED(name, reason="mirror"))
+        note(MAP_ALTERED(name, copies=2 ** sum(axes), reason="mirror"))
     open_x, open_y = (wraps and not mirrored for wraps, mirrored in zip(grid.periodic, axes, strict=True))
     if open_x or open_y:
         found = close_seams(found, axes=(open_x, open_y))
@@ -165,7 +181,9 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     if open_x or open_y:
         along = " and ".join(axis for axis, is_open in zip("xy", (open_x, open_y), strict=True) if is_open)
         factor = float(scaled.heights.std()) / float(found.heights.std() or math.inf)
-        note(MAP_ALTERED(name, along=along, change=factor * float(found.metadata["seams_closed"]), reason="seams"))
+        change = factor * float(found.metadata["seams_closed"])
+        share = change / (float(scaled.heights.std()) or math.inf)
+        note(MAP_ALTERED(name, along=along, change=change, share=share, reason="seams"))
     found = scaled
     return np.ascontiguousarray(found.heights - found.heights.mean())
 

@@ -19,7 +19,7 @@ from bem.notes.note import percent
 from bem.quantities import si
 from bem.scenes.common import MeasuredSurface
 from bem.scenes.kind import get_kind
-from bem.scenes.maps import MOST_SEAM_CHANGE, map_on
+from bem.scenes.maps import MOST_SEAM_CHANGE, height_unit_note, map_on
 from bem.scenes.paths import absolute
 from bem.scenes.tables.wear_model import WearScenePart
 from bem.scenes.validate import validate
@@ -66,7 +66,7 @@ class MeasuredMap:
     ----------
     shape : cells. spacing : of the cells [m].
     table : keys of its table in a scene.
-    rms_height : Sq [m].
+    rms_height : Sq [m]. rms_slope : Sdq; 0 where it is not known.
     resampled : True if the cells are not those of the file.
     source : the table with its file's absolute path, from which its seams are judged; None where they are not.
     """
@@ -77,6 +77,7 @@ class MeasuredMap:
     rms_height: float
     resampled: bool = False
     source: MeasuredSurface | None = None
+    rms_slope: float = 0.0
 
     @property
     def lengths(self) -> tuple[float, float]:
@@ -151,10 +152,11 @@ class OwnStart:
 
 
 def notes_on_maps(found: Mapping[str, MeasuredMap]) -> list[str]:
-    """Return what makes two maps a poor pair, each with what to do: cells of unlike size, or a small common area."""
+    """Return what is doubtful of maps, each with what to do: the unit of heights first, then of two maps what makes
+    them a poor pair, cells of unlike size or a small common area."""
+    notes, names = _unit_doubts(found), list(found)
     if len(found) < 2:
-        return []
-    notes, names = [], list(found)
+        return notes
     cells = [max(one.spacing) for one in found.values()]
     coarse, fine = (names[cells.index(pick(cells))] for pick in (max, min))
     if max(cells) > _MOST_UNLIKE * min(cells):
@@ -172,6 +174,12 @@ def notes_on_maps(found: Mapping[str, MeasuredMap]) -> list[str]:
             "measure areas of similar size"
         )
     return notes
+
+
+def _unit_doubts(found: Mapping[str, MeasuredMap]) -> list[str]:
+    """Return a note on each map whose heights are probably in another unit."""
+    notes = (height_unit_note(body, one.rms_height, one.rms_slope) for body, one in found.items())
+    return [str(note) for note in notes if note is not None]
 
 
 def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, MeasuredMap]) -> OwnStart:
@@ -252,7 +260,7 @@ def _scale_of(body: str, path: str, scale: MapScale) -> MapScale | None:
 
 def _read(body: str, path: str, folder: Path, scale: MapScale) -> MeasuredMap:
     """Read a map and choose what its table needs: form removal, and despiking where there are outliers."""
-    from bem.surfaces import read_surface
+    from bem.surfaces import describe_surface, read_surface
     from bem.surfaces.filter import MOST_SPIKES, count_spikes
 
     surface = read_surface(path, detrend="curvature", **scale.read_arguments)
@@ -273,7 +281,9 @@ def _read(body: str, path: str, folder: Path, scale: MapScale) -> MeasuredMap:
         table["despike"] = 6
         surface = read_surface(path, detrend="curvature", despike=6, **scale.read_arguments)
     source = validate(table | {"path": absolute(path, Path())}, MeasuredSurface)
-    return MeasuredMap(surface.shape, surface.spacing, table, float(surface.heights.std()), source=source)
+    slope = describe_surface(surface.heights, surface.spacing).Sdq
+    height = float(surface.heights.std())
+    return MeasuredMap(surface.shape, surface.spacing, table, height, source=source, rms_slope=slope)
 
 
 def _common_lengths(maps: Collection[MeasuredMap]) -> tuple[float, float]:

@@ -54,6 +54,22 @@ class SurfaceDescription:
         return _geometric_mean(self.decay_length_x, self.decay_length_y)
 
 
+STEEPEST_SURFACE = 1.0
+"""Rms slope Sdq above which the unit of heights is doubted; ground and honed surfaces have 0.05 to 0.5."""
+LEAST_HEIGHT = 0.5e-9
+"""Rms height Sq [m] below which the unit of heights is doubted; polished silicon and mica have 0.1 nm to 0.3 nm."""
+
+
+def height_unit_doubt(rms_height: float, rms_slope: float) -> str:
+    """Return why the unit of a map's heights is doubted: "steep", "smooth", or "" where it is not.
+
+    rms_height : Sq [m]; a flat map (0) is not doubted. rms_slope : Sdq.
+    """
+    if rms_slope > STEEPEST_SURFACE:
+        return "steep"
+    return "smooth" if 0 < rms_height < LEAST_HEIGHT else ""
+
+
 def describe_surface(
     heights: FloatArray | Surface,
     spacing: tuple[float, float] | None = None,

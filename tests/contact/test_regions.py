@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bem import Grid, generate_surface
-from bem.contact.regions import count_spots, label_spots
+from bem.contact.regions import count_spots, label_spots, narrow_share
 
 pytestmark = pytest.mark.internal
 
@@ -77,3 +77,15 @@ def test_spots_hold_no_field():
             assert tracemalloc.get_traced_memory()[1] < most * grid.cells
         finally:
             tracemalloc.stop()
+
+
+@pytest.mark.parametrize("wraps", [(False, False), (True, True)])
+def test_spots_of_one_or_two_cells_are_told_from_wider_ones(wraps):
+    touching = np.zeros((12, 12), dtype=bool)
+    touching[2:5, 2:5] = True  # nine cells, one of them inside
+    assert narrow_share(touching, wraps) == 0.0
+    touching[8, 2:11] = True  # nine cells in a row
+    assert narrow_share(touching, wraps) == pytest.approx(0.5)
+    touching[2:5, 2:5] = False
+    touching[0, 0:3] = touching[1, 1] = touching[11, 1] = True  # a cross over the seam
+    assert narrow_share(touching, wraps) == pytest.approx(9 / 14 if wraps[0] else 1.0)

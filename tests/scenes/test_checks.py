@@ -386,6 +386,7 @@ def maps(tmp_path):
     form = np.cos(np.pi * (np.arange(64) + 0.5) / 64)[:, None] * np.ones(64) * 1e-6
     np.savez(tmp_path / "form.npz", heights=form, spacing=np.array([1e-6, 1e-6]))
     np.savez(tmp_path / "gaps.npz", heights=gaps, spacing=np.array([1e-6, 1e-6]))
+    np.savez(tmp_path / "metres.npz", heights=form * 1e6, spacing=np.array([1e-6, 1e-6]))
     write_surface(tmp_path / "whole.npz", Surface(rng.normal(0, 1e-7, (64, 64)), (1e-6, 1e-6)))
     spiky = rng.normal(0, 1e-7, (64, 64))
     spiky[20, 30] = spiky[40, 11] = 3e-6
@@ -399,6 +400,7 @@ def on_map(path, lengths, **surface):
 
 
 MAPS = {
+    "height_unit_of_a_map": (("metres.npz", {}, "is the height unit right"), ("whole.npz", {})),
     "patch_of_few_correlation_lengths": (
         ("form.npz", {"detrend": "none"}, "5.3 correlation lengths of the lower surface long"),
         ("whole.npz", {}),
@@ -534,6 +536,11 @@ OUTCOMES = {
         "rolling-creepage",
         (Outcome({"friction_work_N": [1.0, 2.0], "friction_work_N_error": [2.2, 0.1]}, {}), "220 % of it"),
         Outcome({"friction_work_N": [1.0, 0.0], "friction_work_N_error": [0.4, 0.1]}, {}),
+    ),
+    "few_contact_spots": (
+        ROUGH,
+        (Outcome({"contact_spots": 16}, {}), "1/sqrt(spots), 12 %"),
+        Outcome({"contact_spots": 30}, {}),
     ),
     "coating_taken_by_the_film": (COATED_BALL, (film_outcome(120.0), "the outermost coating, dlc"), film_outcome(80.0)),
     "highest_pressure_at_a_seam": (

@@ -60,6 +60,14 @@ def test_spikes_are_counted_and_their_removal_named(call, tmp_path):
     assert "stand out" not in out
 
 
+@pytest.mark.parametrize(("factor", "told"), [(1e6, True), (1.0, False), (1e-3, True)])
+def test_a_wrong_unit_of_heights_is_doubted_first(call, tmp_path, factor, told):
+    heights = np.random.default_rng(1).normal(0, 1e-7 * factor, (32, 32))
+    np.savez(tmp_path / "a.npz", heights=heights, spacing=(1e-6, 1e-6))
+    _, out, _ = call("surface", "describe", tmp_path / "a.npz")
+    assert ("is the height unit right?" in out.splitlines()[0]) == told
+
+
 def test_measured(call, measured, tmp_path):
     code, out, _ = call("surface", "describe", measured / "opd-1.opd")
     assert code == 0

@@ -77,6 +77,10 @@ class ContactRecord(GridRecord, WheelRailRecord):
     combined_Sdq: Annotated[
         float | None, Figure("", "rms slope of both surfaces together", optional=True, unjudged=True)
     ] = None
+    contact_spots_of_map: Annotated[
+        int | None,
+        Figure("", "separate spots of contact on one of the mirrored copies of a map", optional=True, unjudged=True),
+    ] = None
     reduced_pressure: Annotated[
         float | None,
         Figure("", "nominal pressure over contact modulus and rms slope", optional=True, unjudged=True),

@@ -79,6 +79,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         **_stress_fields(below),
         **_coating_fields(scene, grid, response.traction, below),
         **response.arrays(scene),
+        contact_spots_of_map=_spots_of_map(scene, grid, solution.pressure),
         **wheel_rail.fields(scene, grid, solution),
         residual=solution.residual,
         iterations=solution.iterations,
@@ -119,6 +120,24 @@ def _combined_roughness(scene: ContactScene, grid: Grid, lower: FloatArray, uppe
         found["plasticity_index"] = index if math.isfinite(index) else None
         found["slope_plasticity_index"] = slope_plasticity_index(slope, modulus, hardness)
     return found
+
+
+def _spots_of_map(scene: ContactScene, grid: Grid, pressure: FloatArray) -> int | None:
+    """Return the spots on one copy of mirrored maps; None where no axis is mirrored on all rough bodies.
+
+    A copy is the first half of the cells of such an axis.
+    """
+    from bem.contact.regions import count_spots
+    from bem.scenes.common import MeasuredSurface
+
+    rough = [body.surface for body in (scene.lower, scene.upper) if body.surface.kind != "smooth"]
+    mirrors = [one.mirror if isinstance(one, MeasuredSurface) else "none" for one in rough]
+    axes = [bool(mirrors) and all(one in (axis, "both") for one in mirrors) for axis in "xy"]
+    if not any(axes):
+        return None
+    nx, ny = (n // (2 if mirrored else 1) for n, mirrored in zip(grid.shape, axes, strict=True))
+    wraps = [wrapped and not mirrored for wrapped, mirrored in zip(grid.periodic, axes, strict=True)]
+    return count_spots(pressure[:nx, :ny], Grid((nx, ny), grid.spacing, periodic=(wraps[0], wraps[1])))
 
 
 def _stress_fields(below: StressSummary | None) -> dict[str, Any]:

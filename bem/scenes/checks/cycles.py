@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from bem.contact.certificate import unresolved_spots
 from bem.grid import FloatArray, Grid
 from bem.notes import Level, Note
 from bem.notes.accuracy import NoBar, no_error_bar
@@ -25,7 +26,6 @@ from bem.notes.checks import (
     SURFACE_ROUGHENED,
     WEAR_STEPS_LONG,
 )
-from bem.notes.contact import CONTACT_UNRESOLVED
 from bem.notes.note import joined, percent
 from bem.quantities import si
 from bem.scenes.checks.facts import Facts
@@ -263,10 +263,16 @@ def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[Note
         return
     least = [float(plane.mean()) / cap for plane in planes]
     counted = [float((plane > 0).mean()) for plane in planes]
-    many = [c / low for area, low, c in zip(areas, least, counted, strict=True) if area <= _MANY * low < c]
-    if many:
+    many = [
+        (c / low, plane)
+        for area, low, c, plane in zip(areas, least, counted, planes, strict=True)
+        if area <= _MANY * low < c
+    ]
+    grid = facts.cases[0].grid
+    if many and grid is not None:
         of = " in the last cycle" + _of(len(many), len(areas))
-        yield CONTACT_UNRESOLVED(of=of, times=max(many), reason="spots")
+        worst, plane = max(many, key=lambda pair: pair[0])
+        yield unresolved_spots(plane > 0, worst, grid.periodic, of)
 
 
 @outcome_check

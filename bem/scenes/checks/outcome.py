@@ -21,7 +21,7 @@ from bem.notes.checks import (
     STRAIN_LARGE,
     YIELDS,
 )
-from bem.notes.contact import CONTACT_AT_EDGE, ROLLING_UNRESOLVED
+from bem.notes.contact import CONTACT_AT_EDGE, FEW_SPOTS, ROLLING_UNRESOLVED
 from bem.notes.note import joined, percent
 from bem.quantities import si
 from bem.scenes.build import AnySurface
@@ -126,6 +126,25 @@ def _from_seam(index: int, cells: int) -> int:
     """Cells between a cell and the nearest seam of an axis that is mirrored at its middle and wraps."""
     half = cells // 2
     return min(index % half, half - 1 - index % half) if half else 0
+
+
+FEWEST_SPOTS = 30
+"""Number of contact spots below which figures of another place of the surface differ by more than a tenth."""
+_SCATTER = 0.5
+"""Scatter of the contact area from place to place, times sqrt(spots): 0.31 to 0.52 of 32 Gaussian maps each with 4 to
+30 spots, capped at the hardness of a hard steel."""
+
+
+@outcome_check
+def few_contact_spots(facts: Facts, outcome: Outcome) -> Iterator[Note]:
+    """Error bars are those of the cells. Another place of the same surface has other summits, and few of them touch."""
+    spots = outcome.summary.get("contact_spots_of_map", outcome.summary.get("contact_spots"))
+    known = [value for value in numbers(spots) if value > 0]
+    if not facts.of_kind("contact") or not known or not facts.surfaces or facts.scene.shape.kind != "flat":
+        return
+    fewest = min(known)
+    if fewest < FEWEST_SPOTS:
+        yield FEW_SPOTS(spots=int(fewest), scatter=_SCATTER / math.sqrt(fewest))
 
 
 @outcome_check

@@ -14,14 +14,29 @@ from bem.notes import Note
 from bem.plausibility import BY_NAME, UsualRange, notes_on, range_of_key
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.registry import scene_check
-from bem.scenes.common import MaterialScene, SceneModel
+from bem.scenes.common import MaterialScene, MeasuredSurface, SceneModel
 from bem.scenes.load import scenes_over
+from bem.scenes.maps import height_unit_note
 from bem.scenes.table import Table
 from bem.scenes.walk import own_keys
 
 _MOST_SCENES = 256
 """Scenes of a key `over` that are looked at."""
 Values = Iterator[tuple[str, UsualRange, float]]
+
+
+@scene_check
+def height_unit_of_a_map(facts: Facts) -> Iterator[Note]:
+    """Heights of a map in a wrong unit are a thousand times too large or too small, and so are its slopes."""
+    for _, case, surface in (
+        *facts.worst_surfaces(lambda surface: surface.rms_slope),
+        *facts.worst_surfaces(lambda surface: -surface.rms_height),
+    ):
+        if isinstance(surface.table, MeasuredSurface) and surface.table.rms_height is None:
+            where = case.note_place(f"{surface.body}.surface")
+            note = height_unit_note(where, surface.rms_height, surface.rms_slope)
+            if note is not None:
+                yield note
 
 
 @scene_check

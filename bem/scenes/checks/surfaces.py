@@ -16,6 +16,7 @@ from bem.scenes.checks.surfaces_of import RoughSurface
 from bem.scenes.checks.words import times
 from bem.scenes.common import MeasuredSurface
 from bem.scenes.maps import MOST_SEAM_CHANGE
+from bem.surfaces.describe import STEEPEST_SURFACE
 
 _FILLED = 0.03
 _KURTOSIS = 10.0
@@ -30,9 +31,10 @@ _ROUND_OFF = 1e-9
 @scene_check
 def steep_roughness(facts: Facts) -> Iterator[Note]:
     """Half-spaces and heights over a plane need small slopes: lengths along the surface are off by slope^2 / 2, 12 % at
-    an rms slope of 0.5, and summits at twice the rms slope are cliffs."""
+    an rms slope of 0.5, and summits at twice the rms slope are cliffs. Of a map steeper than any surface the unit is
+    doubted instead."""
     for slope, case, surface in facts.worst_surfaces(lambda surface: surface.rms_slope):
-        if slope > STEEP:
+        if slope > STEEP and not (isinstance(surface.table, MeasuredSurface) and slope > STEEPEST_SURFACE):
             yield SLOPES_LARGE(case.note_place(f"{surface.body}.surface"), slope=slope, reason="roughness")
 
 
@@ -92,11 +94,16 @@ def _fewness(surface: RoughSurface) -> float:
 def seams_that_alter_the_map(facts: Facts) -> Iterator[Note]:
     """A map whose opposite edges differ by more than its roughness is bent to meet itself."""
     for _, case, surface in facts.worst_surfaces(lambda surface: surface.seams / surface.rms_height):
-        if surface.seams > MOST_SEAM_CHANGE * surface.rms_height:
+        height = surface.rms_height
+        if surface.seams > MOST_SEAM_CHANGE * height:
             where = case.note_place(f"{surface.body}.surface")
-            action = _instead_of_closing(surface)
             yield MAP_ALTERED(
-                where, change=surface.seams, height=surface.rms_height, action=action, reason="seams-large"
+                where,
+                change=surface.seams,
+                share=surface.seams / height,
+                height=height,
+                action=_instead_of_closing(surface),
+                reason="seams-large",
             )
 
 
