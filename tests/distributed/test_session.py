@@ -117,12 +117,14 @@ def test_refused_scenes_name_what_holds(tmp_path, changes, words):
     assert not (tmp_path / "run").exists()
 
 
-def test_other_kinds_and_workers_are_refused(tmp_path):
+def test_other_kinds_laws_and_workers_are_refused(tmp_path):
     """One contact is shared; cases of a scene run one by one."""
 
     def run(session):
         with pytest.raises(InputError, match='allowed: kind = "contact"'):
             run_scene("flow-factors", tmp_path / "run", figures=False)
+        with pytest.raises(InputError, match=r"shape\.conforming.*: in one process only"):
+            run_scene("wheel-flange-root", tmp_path / "run", figures=False)
         with pytest.raises(InputError, match="--ranks alone"):
             run_scene("rough-contact", tmp_path / "run", figures=False, workers=2)
 

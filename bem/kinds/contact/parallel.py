@@ -32,6 +32,7 @@ def refuse_on_ranks(scene: ContactScene) -> None:
         "a crystal that does not respond alike on both sides of the x axis": not all(
             responds_evenly(body) for body in (lower, upper) if body is not None
         ),
+        "shape.conforming": bool(scene.shape.conforming),
         "uncertain": bool(scene.uncertain),
         "accuracy": scene.accuracy is not None,
     }
