@@ -48,7 +48,10 @@ def element(
         Path | None, typer.Option(metavar="FILE", help="Draw all contacts, with A to E of gears: .png, .pdf or .svg.")
     ] = None,
     contacts: Annotated[
-        bool, typer.Option("--contacts", help="Show the table of all contacts in place of the answer; solves no film.")
+        bool,
+        typer.Option(
+            "--contacts", help="Show the table of all contacts in place of the answer; solves no film but of bushes."
+        ),
     ] = False,
     running: Annotated[
         bool, typer.Option("--running", help="Solve the film at every position, for the answer, table and figure.")
@@ -77,6 +80,7 @@ def element(
     from bem.elements.answer import answer_notes, balance_heat, contact_words, place_words, table_columns
     from bem.elements.element import LIFE, MIXED, load_element
     from bem.elements.figure import draw_element
+    from bem.elements.plain_bush import PlainBushModel
     from bem.elements.running import notes as notes_of
     from bem.elements.scene_text import scene_text
     from bem.errors import InputError
@@ -117,7 +121,9 @@ def element(
         }
     rows = None if path is None else found.path_csv()
     runs: Sequence[Running] = ()
-    if running or not (contacts or made is not None or found.model.oil is None):
+    lubricated = found.model.oil is not None
+    bush = isinstance(found.model, PlainBushModel)  # its one film gives its friction and temperature
+    if running or (lubricated and made is None and (bush or not contacts)):
         runs = _solve(found, whole=running or table is not None)
     if contacts:
         _show(found, chosen, runs)
@@ -151,11 +157,13 @@ def element(
 
 def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...]) -> None:
     """A line for each case."""
-    from bem.cli._terminal import print_written, show_warnings, table
-    from bem.elements.answer import balance_heat
+    from bem.cli._terminal import Terminal, print_written, show_warnings, table
+    from bem.elements.answer import PLACES, answer_notes, balance_heat
     from bem.elements.cases import changed_keys, columns, load_cases
     from bem.elements.element import csv_text, read_element
     from bem.elements.plain_bush import PlainBushModel
+    from bem.elements.running import notes as notes_of
+    from bem.elements.running import run_all
     from bem.errors import InputError
     from bem.notes.merge import merge
     from bem.results.atomic import write_text
@@ -166,11 +174,22 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
         )
     cases, changed = load_cases(file, rows), changed_keys(file, rows)
     runs: list[Sequence[Running]] = []
-    if not any(one.model.oil is None or isinstance(one.model, PlainBushModel) for one in cases):
-        cases = tuple(balance_heat(one) for one in cases)
-        runs = [_solve(one, whole=False) for one in cases]
+    if not any(one.model.oil is None for one in cases):
+        with Terminal() as terminal:
+            balanced = []
+            for done, one in enumerate(cases):
+                terminal.progress(done, len(cases), "cases", {})
+                balanced.append(balance_heat(one))
+                runs.append(run_all(balanced[-1], most=PLACES))
+        cases = tuple(balanced)
     found = columns(cases, runs, changed)
-    show_warnings(merge([[note] if (note := one.speed_note()) is not None else [] for one in cases], _rows_of))
+    told: list[list[Note]] = []
+    for one, each in zip(cases, runs or [()] * len(cases), strict=True):
+        if isinstance(one.model, PlainBushModel):
+            told.append([*one.notes(), *answer_notes(one, each), *notes_of(each)])
+        else:
+            told.append([note] if (note := one.speed_note()) is not None else [])
+    show_warnings(merge(told, _rows_of))
     unnamed = [f"{read_element(file)['name']}-{number}" for number in range(1, len(cases) + 1)]
     named = found["case"] != unnamed
     hidden = {*([] if named else ["case"]), *([*_BY_FORMULA, "thinnest_by_formula"] if runs else [])}
@@ -201,7 +220,7 @@ def _spelled(name: str, value: float) -> str:
     if unit == "h" and not math.isnan(value):
         return f"{plain_digits(value, 3)} h"
     if unit == "K":
-        return "" if math.isnan(value) else f"{value - 273.15:.4g} °C"
+        return "" if math.isnan(value) else f"{value - 273.15:.3g} °C"
     if unit == "m/s":
         return with_unit(value, unit)
     if unit == "Pa*m/s":
@@ -291,7 +310,7 @@ def _unit(key: str, values: Sequence[float]) -> tuple[str, Callable[[float], str
 
     unit = key.partition(" [")[2].removesuffix("]")
     if unit == "K" and "flash" not in key:
-        return "°C", lambda value: f"{value - 273.15:.4g}"
+        return "°C", lambda value: f"{value - 273.15:.3g}"
     known = [value for value in values if not math.isnan(value)]
     factor, shown = prefix(known, unit)
     return with_signs(shown), lambda value: f"{value * factor:.3g}"

@@ -20,6 +20,7 @@ from bem.elements.bush_answer import (
     bush_temperature,
     friction_power_of,
     pressure_words,
+    thick_film_words,
 )
 from bem.elements.cam_follower import CamModel
 from bem.elements.contact import ElementContact
@@ -136,21 +137,57 @@ def balance_heat(element: Element, *, most: int = PLACES) -> Element:
     The bulk temperature is that of the surroundings plus friction power (`likely_power`) over conductance,
     found by secants. Films of gears are at their bulk temperature, as ISO/TS 6336-22 takes the viscosity in its film
     thickness (known from textbooks; the standard was not read): without one of the file it is that of scuffing,
-    `bem.elements.gear_scuffing.estimated_bulk`. Other elements without a balance are returned as they are.
+    `bem.elements.gear_scuffing.estimated_bulk`. A lubricated bush without a balance has the usual conductance. Other
+    elements without a balance are returned as they are.
     """
     balance = element.model.heat_balance
+    if isinstance(element.model, PlainBushModel):
+        return _balance_bush(element, element.model)
     if isinstance(element.model, GearModel) and (estimate := estimated_bulk(element)) is not None:
         return element.at_bulk(estimate, estimated=True)
     if balance is None or element.model.oil is None or element.model.oil.temperature is None:
         return element
     around = element.model.oil.temperature if balance.ambient is None else balance.ambient
-    if isinstance(element.model, PlainBushModel) and element.model.friction is not None:
-        return element.at_bulk(around + likely_power(element, ()) / balance.conductance)  # no film decides it
+    conductance = balance.conductance
+    assert conductance is not None
 
     def excess(temperature: float) -> float:
         at = element.at_bulk(temperature)
-        return around + likely_power(at, run_all(at, most=most)) / balance.conductance - temperature
+        return around + likely_power(at, run_all(at, most=most)) / conductance - temperature
 
+    return element.at_bulk(_balanced(excess, around))
+
+
+def _balance_bush(element: Element, model: PlainBushModel) -> Element:
+    """Return a lubricated bush at the temperature of its heat balance, with the usual conductance if none is given.
+
+    A dry bush, one of given temperature, and one whose liquid has no temperature are returned as they are: their
+    friction does not depend on it. So is one without a film that converges.
+    """
+    if model.oil is None or model.oil.temperature is None or model.bulk_temperature is not None:
+        return element
+    if model.friction is not None:  # no film decides it
+        return element.at_bulk(model.surroundings + likely_power(element, ()) / model.conductance)
+
+    def excess(temperature: float) -> float:
+        at = element.at_bulk(temperature)
+        runs = [one for one in run_all(at) if one.converged]
+        if not runs:
+            raise _NoFilm
+        return model.surroundings + likely_power(at, runs) / model.conductance - temperature
+
+    try:
+        return element.at_bulk(_balanced(excess, model.surroundings))
+    except _NoFilm:
+        return element
+
+
+class _NoFilm(Exception):
+    """No film of a heat balance converged."""
+
+
+def _balanced(excess: Callable[[float], float], around: float) -> float:
+    """Return the temperature [K] at which an excess over it [K] vanishes, by secants from that of the surroundings."""
     low, error = around, excess(around)
     high = low + error
     for _ in range(_BALANCE_ROUNDS):
@@ -158,7 +195,7 @@ def balance_heat(element: Element, *, most: int = PLACES) -> Element:
             break
         now = excess(high)
         low, high, error = high, high - now * (high - low) / (now - error), now
-    return element.at_bulk(high)
+    return high
 
 
 def answer(element: Element, solved: Sequence[Running]) -> Rows:
@@ -199,12 +236,15 @@ def _lost(element: Element, solved: Sequence[Running]) -> Rows:
 
 
 def _bush(element: Element, model: PlainBushModel, runs: Sequence[Running], solved: Sequence[Running]) -> Rows:
-    film = [("lambda ratio", _film(element, runs))] if runs else []
-    rows = bush_rows(model, _film_of_bush(element, runs))
+    film_of_it = film_of_bush(element, runs)
+    said = None if film_of_it is None else thick_film_words(model, film_of_it)
+    film = [("lambda ratio", said or _film(element, runs))] if runs else []
+    rows = bush_rows(model, film_of_it)
     return (("critical contact", pressure_words(model)), *film, *rows, *_lost(element, solved))
 
 
-def _film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | None:
+def film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | None:
+    """Return the film of a bush from its solved films that converged; None without one."""
     if not runs:
         return None
     warm = element.model.film_temperature
@@ -215,6 +255,7 @@ def _film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | Non
         solved=all(one.mixed_friction is not None for one in runs),
         touching=any((one.film_ratio or 1.0) < 1 for one in runs),
         rise=0.0 if hottest is None or warm is None else max(hottest - warm, 0.0),
+        thickness=min(one.minimum_film for one in runs),
     )
 
 
@@ -225,7 +266,7 @@ def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...
         return life_notes(element, min((one.film_ratio for one in runs if one.film_ratio is not None), default=None))
     if not isinstance(element.model, PlainBushModel):
         return ()
-    return bush_notes(element.model, _film_of_bush(element, runs))
+    return bush_notes(element.model, film_of_bush(element, runs))
 
 
 def table_columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]:
@@ -238,7 +279,7 @@ def table_columns(element: Element, runs: Sequence[Running]) -> dict[str, list[f
     if not isinstance(element.model, PlainBushModel):
         return found
     found = {name: values for name, values in found.items() if not name.startswith("wear_per_pass")}
-    film = _film_of_bush(element, [one for one in runs if one.converged])
+    film = film_of_bush(element, [one for one in runs if one.converged])
     power = friction_power_of(element.model, film)[0]
     if power is None:
         return found

@@ -16,13 +16,15 @@ from bem.elements.plain_bush import (
 )
 from bem.notes import Note
 from bem.notes.elements import (
+    BUSH_FLOATS,
     BUSH_LIQUID_LOST,
     BUSH_OVER_LIMIT,
     BUSH_TOUCHES,
     BUSH_WARMER_THAN_OIL,
     BUSH_WEARS_IN_FILM,
 )
-from bem.quantities import plain_digits, with_unit
+from bem.quantities import plain_digits, si, with_unit
+from bem.reference_solutions.journal_bearing import JournalFilm, journal_film
 
 CELSIUS = 273.15
 _HOUR = 3600.0
@@ -30,6 +32,9 @@ _WARMER = 15.0
 """Excess of the bush over the liquid of its film that is worth a note [K]: viscosities change by 2 to 5 % a kelvin."""
 
 
+THICK = 0.1
+"""Film over the radial clearance from which the oil carries the shaft as in a journal bearing. There, at L/D = 0.8, an
+endless line film is 1.5 to 2 times as thick as that of a journal bearing by Reynolds' equation."""
 LEAST_SHARE = 0.01
 """Share of the load on asperities below which friction is that of the film."""
 
@@ -45,6 +50,7 @@ class FilmOfBush:
     solved : whether share and friction are those of kind friction; else they are estimated.
     touching : whether the smooth film is thinner than the roughness.
     rise : of the hotter surface at its hottest above the bodies [K].
+    thickness : of the film if it carried the whole load, at its thinnest [m].
     """
 
     power: float
@@ -52,6 +58,7 @@ class FilmOfBush:
     solved: bool = False
     touching: bool = False
     rise: float = 0.0
+    thickness: float = 0.0
 
 
 def pressure_words(model: PlainBushModel) -> str:
@@ -66,6 +73,36 @@ def pressure_words(model: PlainBushModel) -> str:
         f"load line: half-angle {math.degrees(found.half_angle):.1f} deg, peak pressure {peak}, mean pressure F/(d L) "
         f"{mean}; {around} (equivalent cylinder on a flat: {with_unit(model.cylinder.maximum_pressure, 'Pa')})"
     )
+
+
+def journal_of(model: PlainBushModel, film: FilmOfBush) -> JournalFilm | None:
+    """Return the estimated film of a journal bearing in place of a film too thick for the model; None of a thin one."""
+    oil = model.film_oil
+    if oil is None or film.thickness < THICK * model.radial_clearance:
+        return None
+    return journal_film(
+        load=model.radial_load,
+        radius=model.bodies.radius,
+        clearance=model.radial_clearance,
+        length=model.length,
+        viscosity=oil.build().viscosity,
+        sliding_speed=model.sliding_speed,
+    )
+
+
+def thick_film_words(model: PlainBushModel, film: FilmOfBush) -> str | None:
+    """Return lambda ratio and film in words where the film is too thick for the model; None of a thin one."""
+    journal = journal_of(model, film)
+    if journal is None:
+        return None
+    said = (
+        f"minimum film about {si(film.thickness, 'm', 2)} as of an endless cylinder on a flat, about "
+        f"{si(journal.minimum_thickness, 'm', 2)} by an estimate as a journal bearing of this length"
+    )
+    if model.rms_roughness is None:
+        return f"not known: give rms_roughness, of both surfaces together; {said}"
+    ratios = (one / model.rms_roughness for one in (film.thickness, journal.minimum_thickness))
+    return f"outside the model, about {' or '.join(f'{one:.2g}' for one in ratios)}: {said}"
 
 
 def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[float | None, str]:
@@ -131,6 +168,17 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
         notes += _temperature_notes(model, film, bush_temperature(model, power))
     if film is not None and film.asperity_share < LEAST_SHARE and model.specific_wear_rate:
         notes.append(BUSH_WEARS_IN_FILM(share=film.asperity_share))
+    journal = None if film is None else journal_of(model, film)
+    if film is not None and journal is not None:
+        notes.append(
+            BUSH_FLOATS(
+                share=film.thickness / model.radial_clearance,
+                film=film.thickness,
+                journal=journal.minimum_thickness,
+                friction=film.power / (model.radial_load * model.sliding_speed),
+                turning=journal.friction,
+            )
+        )
     if film is not None and film.touching:
         notes.append(BUSH_TOUCHES(share=film.asperity_share, reason="solved" if film.solved else "estimated"))
     return tuple(notes)
@@ -181,17 +229,18 @@ def _temperature(model: PlainBushModel, power: float | None) -> str:
         return "not known: they follow from the friction"
     temperature = bush_temperature(model, power or 0.0) - CELSIUS
     around = model.surroundings - CELSIUS
+    said = f"bush {temperature:.3g} °C"
     if model.bulk_temperature is not None:
-        said = f"bush {temperature:.4g} °C, {'by the heat balance' if model.balanced else 'given'}"
+        said += f", {'by the heat balance' if model.balanced else 'given'}"
+        film = model.film_temperature
+        if film is not None and film != model.bulk_temperature:
+            said += f" (film and friction are those of the liquid at {film - CELSIUS:.3g} °C)"
         if model.viscosity_fixed and not model.viscosity_notes():
             said += " (the viscosity given is taken at this temperature)"
-    else:
+    if model.bulk_temperature is None or model.balanced:
         assert power is not None
-        said = (
-            f"bush {temperature:.3g} °C: surroundings {around:.3g} °C plus {plain_digits(power, 3)} W over "
-            f"{model.conductance:.3g} W/K"
-        )
-        if model.heat_balance is None:
+        said += f": surroundings {around:.3g} °C plus {plain_digits(power, 3)} W over {model.conductance:.3g} W/K"
+        if model.heat_balance is None or model.heat_balance.conductance is None:
             said += f", assumed as {TRANSFER:g} W/(m^2 K) x {AREA_FACTOR:g} d L (give heat_balance)"
     highest = model.service_temperature
     if highest is None:

@@ -15,7 +15,7 @@ from typing import Any
 
 from pydantic_core import PydanticCustomError
 
-from bem.elements.answer import likely_power, place_words
+from bem.elements.answer import film_of_bush, likely_power, place_words
 from bem.elements.bearing_life import bearing_life
 from bem.elements.bush_answer import bush_temperature, friction_power_of, wear_life
 from bem.elements.element import Element, load_element, read_element
@@ -105,7 +105,9 @@ def columns(
         found["mean_pressure [Pa]"] = [one.mean_pressure for one in bushes]
         found["sliding_speed [m/s]"] = [one.sliding_speed for one in bushes]
         found["pv [Pa*m/s]"] = [one.mean_pressure * one.sliding_speed for one in bushes]
-        if all(one.oil is None or one.friction is not None for one in bushes):  # else friction is that of films
+        if runs:
+            found |= _known(_rubbing(cases, runs))
+        elif all(one.oil is None or one.friction is not None for one in bushes):  # else friction is that of films
             power = [friction_power_of(one, None)[0] for one in bushes]
             found["friction_power [W]"] = [math.nan if each is None else each for each in power]
             found["bush_temperature [K]"] = [
@@ -122,6 +124,26 @@ def columns(
         if all(known):
             found |= _known(_solved(cases, known))
     return found | _known(_lives(cases))
+
+
+def _rubbing(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dict[str, list[float | str]]:
+    """Return friction and temperature of lubricated bushes as the answer has them, not a number without a film."""
+    found: dict[str, list[float | str]] = {
+        "friction_coefficient": [],
+        "friction_power [W]": [],
+        "asperity_load_share": [],
+        "bush_temperature [K]": [],
+    }
+    for case, own in zip(cases, runs, strict=True):
+        model = case.model
+        assert isinstance(model, PlainBushModel)
+        film = film_of_bush(case, [one for one in own if one.converged])
+        power = friction_power_of(model, film)[0] if film is not None or model.friction is not None else None
+        found["friction_coefficient"].append(_number(power) / (model.radial_load * model.sliding_speed))
+        found["friction_power [W]"].append(_number(power))
+        found["asperity_load_share"].append(math.nan if film is None else film.asperity_share)
+        found["bush_temperature [K]"].append(math.nan if power is None else bush_temperature(model, power))
+    return found
 
 
 def _known(columns: Mapping[str, list[float | str]]) -> dict[str, list[float | str]]:
@@ -157,9 +179,9 @@ def _solved(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dict
         "thinnest": [place_words(case, one.contact) for case, one in zip(cases, thinnest, strict=True)],
         "solved_minimum_film [m]": [one.minimum_film for one in thinnest],
         "solved_film_over_roughness": [_number(one.film_ratio) for one in thinnest],
-        "bulk_temperature [K]": [_number(one.model.bulk_temperature) for one in cases],
     }
-    if not any(isinstance(one.model, PlainBushModel) for one in cases):
+    if not any(isinstance(one.model, PlainBushModel) for one in cases):  # whose columns stand beside pressure
+        found["bulk_temperature [K]"] = [_number(one.model.bulk_temperature) for one in cases]
         found["friction_power [W]"] = [likely_power(case, each) for case, each in both]
     if all(isinstance(one.model, GearModel) for one in cases):
         scuffing = [scuffing_of(case, each) for case, each in both]

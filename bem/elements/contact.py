@@ -79,12 +79,17 @@ class ElementContact:
     def minimum_film(self, modulus: float, oil: Lubricant) -> float:
         """Fit of the minimum film of a line [m], isothermal and flooded, to tell places apart; scenes compute it.
 
-        The thicker of Dowson's fit and that of soft bodies, in which viscosity does not rise with pressure. Zero where
-        nothing is entrained. Of a bounded inlet the rigid film of the oil as it comes.
+        The thickest of Dowson's fit, that of soft bodies, in which viscosity does not rise with pressure, and of a line
+        that of rigid bodies (Martin). Zero where nothing is entrained. Of a bounded inlet the rigid film of the oil as
+        it comes.
         """
         if math.isfinite(self.inlet) and self.mean_speed:
             return self.rigid_film(oil.viscosity).minimum_thickness
-        from bem.reference_solutions.line_film import dowson_higginson_minimum, isoviscous_elastic_minimum
+        from bem.reference_solutions.line_film import (
+            MartinFilm,
+            dowson_higginson_minimum,
+            isoviscous_elastic_minimum,
+        )
 
         if self.mean_speed == 0:
             return 0.0
@@ -96,7 +101,9 @@ class ElementContact:
         soft = isoviscous_elastic_minimum(
             load=load, radius=self.radius, contact_modulus=modulus, mean_speed=speed, viscosity=viscosity
         )
-        return max(hard, soft)
+        if self.length is None:
+            return max(hard, soft)
+        return max(hard, soft, MartinFilm(load, self.radius, viscosity, speed).minimum_thickness)
 
     def rigid_film(self, viscosity: float) -> InletFilm:
         """Of a line whose bodies stay rigid, in oil of a viscosity [Pa s] up to its inlet; something is entrained."""

@@ -20,7 +20,7 @@ from bem.elements.bush_answer import bush_temperature, friction_power_of
 from bem.elements.cam_follower import CamModel
 from bem.elements.contact import CONFORMING, ElementContact
 from bem.elements.gear_pair import GearModel
-from bem.elements.model import Contacts, ElementModel
+from bem.elements.model import Contacts, ElementModel, HeatBalanceScene
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.plain_bush import HOUSING, PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
@@ -143,7 +143,9 @@ class Element:
     def at_bulk(self, temperature: float, *, estimated: bool = False) -> Element:
         """Return the element with bodies of a temperature [K], in place of its bulk temperature or heat balance."""
         table = {key: value for key, value in self.table.items() if key not in ("bulk_temperature", "heat_balance")}
-        changes = {"bulk_temperature": temperature, "heat_balance": None}
+        changes: dict[str, Any] = {"bulk_temperature": temperature, "heat_balance": None}
+        if isinstance(self.model, PlainBushModel):  # says to where the heat flows, and which conductance is assumed
+            changes["heat_balance"] = self.model.heat_balance or HeatBalanceScene()
         return Element(self.model.model_copy(update=changes), table | {"bulk_temperature": temperature}, estimated)
 
     def _film_oil(self) -> OilScene:

@@ -50,10 +50,11 @@ class Contacts:
 class HeatBalanceScene(Table):
     """Heat balance of the bodies: they are warmer than `ambient` by friction power over `conductance`.
 
-    Without `ambient` the heat goes to the oil at its temperature.
+    Without `ambient` the heat goes to the oil at its temperature. Only bushes do without `conductance`: they have a
+    usual one.
     """
 
-    conductance: Annotated[Conductance, Field(gt=0)]
+    conductance: Annotated[Conductance, Field(gt=0)] | None = None
     ambient: Temperature | None = None
 
 
@@ -90,6 +91,8 @@ class ElementModel(Table):
             raise problem("bulk_temperature and heat_balance are given", "one of both: the balance gives the other")
         if self.heat_balance is not None and (self.oil is None or self.oil.temperature is None):
             raise problem("heat_balance without the temperature of an oil", "oil.temperature beside heat_balance")
+        if self.heat_balance is not None and self.heat_balance.conductance is None:
+            raise problem("heat_balance without conductance", 'heat_balance = { conductance = "30 W/K" }')
         return self
 
     @model_validator(mode="after")

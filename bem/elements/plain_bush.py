@@ -191,7 +191,7 @@ class PlainBushModel(ElementModel):
     @property
     def balanced(self) -> bool:
         """True if the bulk temperature is that of a heat balance, which `Element.at_bulk` puts in its place."""
-        return self.bulk_temperature is not None and "heat_balance" in self.model_fields_set
+        return self.bulk_temperature is not None and self.heat_balance is not None
 
     @property
     def dry_friction(self) -> tuple[float, str] | None:
@@ -229,7 +229,7 @@ class PlainBushModel(ElementModel):
     @property
     def conductance(self) -> float:
         """Heat conductance to the surroundings, given or usual [W/K]."""
-        if self.heat_balance is not None:
+        if self.heat_balance is not None and self.heat_balance.conductance is not None:
             return self.heat_balance.conductance
         return TRANSFER * AREA_FACTOR * self.shaft_diameter * self.length
 

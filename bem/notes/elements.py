@@ -183,6 +183,15 @@ BUSH_TOUCHES = define(
         "estimated": "By an estimate asperities carry {share:.0%} of the load.",
     },
 )
+BUSH_FLOATS = define(
+    "bush-floats",
+    Level.OUTSIDE_MODEL,
+    "The oil carries the shaft as in a journal bearing, which is not modelled.",
+    "The film is {share:.0%} of the radial clearance. Of an endless cylinder on a flat it is {film:si m} thick with a "
+    "friction coefficient of {friction:.2g}; by an estimate as a journal bearing of this length, all of it filled, it "
+    "is {journal:si m} thick with {turning:.2g}.",
+    "The film is up to twice too thick and the friction too low; take them from a program for journal bearings.",
+)
 BUSH_WARMER_THAN_OIL = define(
     "bush-warmer-than-oil",
     CAUTION,

@@ -18,9 +18,11 @@ from bem.elements.figure import element_figure
 from bem.elements.plain_bush import DRY_FRICTION as DRY_FRICTIONS
 from bem.elements.plain_bush import WORN_IN, crescent_distance, sliding_to_depth
 from bem.elements.running import run_all
+from bem.notes import Level
 from bem.notes.checks import SLOPES_LARGE
 from bem.notes.elements import (
     BUSH_CONFORMS,
+    BUSH_FLOATS,
     BUSH_LEAKS,
     BUSH_LIQUID_LOST,
     BUSH_OVER_LIMIT,
@@ -31,6 +33,7 @@ from bem.notes.elements import (
     NO_HEAT,
     VISCOSITY_FIXED,
 )
+from bem.reference_solutions.journal_bearing import journal_film, sommerfeld_number
 
 WATER = tomllib.loads(element_template("plain-bush")) | {"name": "bush"}
 DRY = {key: value for key, value in WATER.items() if key != "oil"}
@@ -107,7 +110,101 @@ def test_a_given_friction_heats_a_lubricated_bush():
     assert element.model.bulk_temperature == pytest.approx(303.15 + power / 2, abs=0.2)
     said = dict(answer(element, ()))
     assert said["friction power"].startswith(f"{power:.3g} W")
-    assert f"bush {30 + power / 2:.4g} °C" in said["temperatures"]
+    assert f"bush {30 + power / 2:.3g} °C" in said["temperatures"]
+
+
+def test_the_usual_conductance_balances_a_lubricated_bush():
+    """Film, friction and temperature are of one state, also with a balance that gives the surroundings alone."""
+    for change, around in (({}, 40), ({"heat_balance": {"ambient": "30 degC"}}, 30)):
+        element = balance_heat(load_element(WATER | {"thermal": "off", "radial_load": "100 N"} | change))
+        model = element.model
+        assert model.conductance == pytest.approx(15 * 15 * 0.02 * 0.02)
+        runs = run_all(element)
+        found = table_columns(element, runs)
+        balanced = 273.15 + around + found["friction_power_with_asperities [W]"][0] / model.conductance
+        assert model.bulk_temperature == pytest.approx(balanced, abs=0.3)
+        assert model.film_oil.temperature == pytest.approx(model.bulk_temperature)
+        assert "assumed" in dict(answer(element, runs))["temperatures"]
+        assert BUSH_WARMER_THAN_OIL.code not in codes(answer_notes(element, runs))
+
+
+def sommerfeld_by_differences(eccentricity, slenderness, *, around=160, along=16):
+    """Sommerfeld number and friction times R/c of a journal bearing: Reynolds' equation by over-relaxation."""
+    angle = np.linspace(0, 2 * math.pi, around + 1)
+    step, slice_length = angle[1], 1 / along
+    half = (1 + eccentricity * np.cos(angle[:-1] + step / 2)) ** 3 / step**2
+    gap = 1 + eccentricity * np.cos(angle)
+    east, west = half[1:, None], half[:-1, None]
+    axial = (gap[1:-1] ** 3 / slenderness**2 / slice_length**2)[:, None]
+    wedge = eccentricity * np.sin(angle[1:-1])[:, None]
+    pressure = np.zeros((around + 1, along + 1))
+    chequer = [(np.add.outer(np.arange(1, around), np.arange(along)) % 2) == colour for colour in (0, 1)]
+    for _ in range(3000):
+        change = 0.0
+        for cells in chequer:
+            inner = pressure[1:-1]
+            beside = np.concatenate([inner[:, 1:2], inner[:, :-2]], axis=1) + inner[:, 1:]
+            new = east * pressure[2:, :-1] + west * pressure[:-2, :-1] + axial * beside + wedge
+            new = np.maximum(-0.8 * inner[:, :-1] + 1.8 * new / (east + west + 2 * axial), 0)
+            moved = np.where(cells, new - inner[:, :-1], 0)
+            pressure[1:-1, :-1] += moved
+            change = max(change, float(np.abs(moved).max()))
+        if change < 1e-7:
+            break
+    mean = (pressure.sum(axis=1) - 0.5 * pressure[:, 0]) * slice_length
+    load = 6 * math.hypot(float(mean @ np.cos(angle)), float(mean @ np.sin(angle))) * step
+    sheared = np.sum(1 / gap[:-1]) * step + 1.5 * np.sum((gap[1:] + gap[:-1]) * np.diff(mean))
+    return 1 / (math.pi * load), sheared / load
+
+
+@pytest.mark.parametrize(
+    ("eccentricity", "slenderness", "number", "friction"),
+    [(0.6, 1, 0.121, 3.22), (0.8, 1, 0.0446, 1.70), (0.9, 1, 0.0188, 1.05), (0.8, 0.5, 0.0923, 3.26)],
+)  # of Raimondi and Boyd, from memory
+def test_the_journal_bearing_is_that_of_finite_differences(eccentricity, slenderness, number, friction):
+    found, sheared = sommerfeld_by_differences(eccentricity, slenderness)
+    assert found == pytest.approx(number, rel=0.02)
+    assert sheared == pytest.approx(friction, rel=0.02)
+    assert 0.86 < sommerfeld_number(eccentricity, slenderness) / found < 0.95
+    radius, clearance, length, viscosity, speed = 12.5e-3, 30e-6, 25e-3 * slenderness, 0.05, 0.3
+    load = viscosity * speed * length * radius**2 / (math.pi * found * clearance**2)
+    film = journal_film(
+        load=load, radius=radius, clearance=clearance, length=length, viscosity=viscosity, sliding_speed=speed
+    )
+    assert 1.0 < film.minimum_thickness / (clearance * (1 - eccentricity)) < 1.13
+    assert film.friction * radius / clearance == pytest.approx(sheared, rel=0.08)
+
+
+def test_a_film_as_thick_as_that_of_a_journal_bearing_is_outside_the_model():
+    """Lambda has two digits and the estimate of a journal bearing beside it; the formula takes the thickest regime."""
+    thick = {"grade": "ISO VG 32", "temperature": "25 degC"}
+    peek = {"bore": "25 mm", "clearance": "60 um", "wall": "3 mm", "radial_load": "800 N", "speed": "250 rpm"}
+    element = load_element(without(WATER, "shaft_diameter") | peek | {"oil": thick, "thermal": "off"})
+    runs = run_all(element)
+    (note,) = [note for note in answer_notes(element, runs) if note.code == BUSH_FLOATS.code]
+    assert note.level is Level.OUTSIDE_MODEL
+    assert 1.5 < note.values["film"] / note.values["journal"] < 2.1
+    assert note.values["turning"] > note.values["friction"]
+    assert "journal bearing" in dict(answer(element, runs))["lambda ratio"]
+    assert element.columns()["minimum_film [m]"][0] == pytest.approx(runs[0].minimum_film, rel=0.2)
+    thin = load_element(WATER | {"thermal": "off"})
+    assert BUSH_FLOATS.code not in codes(answer_notes(thin, run_all(thin)))
+
+
+def test_cases_of_a_lubricated_bush_are_solved_as_its_answer():
+    cases = [
+        balance_heat(load_element(WATER | {"radial_load": load, "heat_balance": {"conductance": "5 W/K"}}))
+        for load in ("100 N", "500 N")
+    ]
+    runs = [run_all(one) for one in cases]
+    found = columns(cases, runs)
+    for row, (case, own) in enumerate(zip(cases, runs, strict=True)):
+        one = table_columns(case, own)
+        assert found["friction_power [W]"][row] == one["friction_power_with_asperities [W]"][0]
+        assert found["bush_temperature [K]"][row] == one["bush_temperature [K]"][0]
+        assert found["solved_film_over_roughness"][row] == own[0].film_ratio
+        slid = case.model.radial_load * case.model.sliding_speed
+        assert found["friction_coefficient"][row] == pytest.approx(found["friction_power [W]"][row] / slid)
 
 
 def test_a_bush_warmer_than_its_liquid_is_noted():
