@@ -32,4 +32,4 @@ def tabor_parameter(work: float, radius: float, modulus: float, range_: float) -
     work : of adhesion [J/m^2]. radius : of the sphere [m]. modulus : E* [Pa].
     range_ : work over the highest traction of the law [m].
     """
-    return float((radius * (work / modulus) ** 2) ** (1 / 3) / range_)
+    return float(radius ** (1 / 3) * (work / modulus) ** (2 / 3) / range_)

@@ -61,7 +61,7 @@ def test_what_is_imported_is_declared():
     """h5py came with another package, and would have gone with it: h5netcdf gave it up."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     optional = project["optional-dependencies"]
-    needed = [*project["dependencies"], *optional["dask"], *optional["app"]]
+    needed = [*project["dependencies"], *optional["dask"], *optional["app"], *optional["mpi"]]
     declared = {re.split(r"[<>=\[]", text)[0].lower() for text in needed}
     # parts of what is declared, under names of their own
     parts = {
