@@ -472,8 +472,22 @@ LESS_THAN_A_PARTICLE = define(
     CAUTION,
     "The run wears less than one particle.",
     "All cycles together shed {number:.2g} particles of one body{of}: sizes are those of regions that would come off.",
-    "At this rate about {cycles} cycles shed {wanted}: set cycles.count to that, or read the particles per distance"
-    " and per worn volume.",
+    "Read the particles per distance and per worn volume. At the rate of the last {window} cycles, {rate:.2g} a cycle,"
+    " about {cycles} cycles shed {wanted}: set cycles.count to that for a count.",
+)
+WEAR_OUTSIDE_REGION = define(
+    "wear-outside-region",
+    INFO,
+    "Wear reaches beyond the contact region of Sq and worn depth.",
+    "{share:%} of the worn volume lies outside Hertz' contact of smooth bodies{of}: rough summits touch beside it.",
+    "Read the worn volume and the map of the worn surface for all of it.",
+)
+CHANGE_WITHIN_ERROR = define(
+    "change-within-error",
+    INFO,
+    "The run does not resolve a change by running-in.",
+    "The change of {figure}, from {before:.4g} to {after:.4g}, is less than its error of {error:.2g}{of}.",
+    "Take smaller cells, more cycles or more wear to see it.",
 )
 PARTICLES_OF_BODY = define(
     "particles-of-body",

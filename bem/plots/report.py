@@ -32,6 +32,7 @@ from bem.plots.tables import (
     scatters_of,
     shown_values,
     varied_keys,
+    window_of,
     with_scatter,
     within,
 )
@@ -88,7 +89,11 @@ def summary_rows(summary: Mapping[str, Any], names: Sequence[str]) -> list[tuple
             continue
         text, shown = with_error(name, summary)
         if (after := _CHANGES.get(name)) in names:
-            text, shown = f"{text} and final", f"{shown} → {with_error(str(after), summary)[1]}"
+            window = window_of(name, summary)
+            text, shown = (
+                f"{text.removesuffix(window)} and final{window}",
+                f"{shown} → {with_error(str(after), summary)[1]}",
+            )
         rows.append((text, shown))
     return rows
 
@@ -117,7 +122,7 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
         sign, cells = shown_values(name, [value], varied[name])
         return name, f"{cells[0]} {sign}".rstrip()
     text, shown = spelled(name, value)
-    text += reported_mean(name, summary)
+    text += reported_mean(name, summary) + window_of(name, summary)
     if is_size_of_no_particles(name, value):
         return text, "-"
     if name == "max_pressure_Pa" and _reaches_hardness(summary):

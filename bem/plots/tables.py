@@ -55,7 +55,30 @@ def reported_mean(name: str, summary: Mapping[str, Any]) -> str:
     return f", mean by {mean.replace('number_above', 'number above a size')}"
 
 
+def window_of(name: str, summary: Mapping[str, Any]) -> str:
+    """Return the window of a figure of a running-in: " (last 38 cycles)" of means over cycles, the width of the contact
+    region of figures of it; "" of others."""
+    if name in _OF_REGION:
+        width = summary.get("contact_region_width_um")
+        widths = set(width) if isinstance(width, list) else {width}
+        (only,) = widths if len(widths) == 1 else (None,)
+        return f" (Hertz' contact, {only:.3g} µm wide)" if isinstance(only, int | float) else ""
+    window = summary.get(f"{_WINDOWS.get(name, '')}_cycles")
+    return f" (last {window} cycles)" if isinstance(window, int) else ""
+
+
+_OF_REGION = ("Sq_initial_nm", "Sq_final_nm", "worn_depth_nm")
+_WINDOWS = {
+    **dict.fromkeys(("friction_run_in", "contact_load_N", "film_load_N", "particles_last_cycles"), "averaged"),
+    "particles_per_cycle": "settled",
+    "particles_per_distance_per_m": "settled",
+    "particles_per_volume_per_mm3": "settled",
+    "criterion_wear_rate_mm3_Nm": "settled",
+}
+"""Figures that are means over the last cycles, by the window of the run that they are taken over."""
 _LABELS = {
+    "friction_first_turn": "friction coefficient, mean of the first whole turn",
+    "friction_last_turn": "friction coefficient, mean of the last whole turn",
     "lowest_load": "pull-off force (lowest load)",
     "jkr_lowest_load": "pull-off force by JKR (soft spheres)",
     "dmt_lowest_load": "pull-off force by DMT (stiff spheres)",
@@ -393,7 +416,7 @@ def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str, colum
             _beside(name, summary),
             bars=f"{name}{_ERROR}" in summary,
             scatters=scatters_of(name, summary),
-            mean=reported_mean(name, summary),
+            mean=reported_mean(name, summary) + window_of(name, summary),
         )
         for name in names
         if name not in leading and name not in varied and name not in repeated

@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     import xarray
 
 DEFINITION, DATASET, TABLE, FIGURE = "sweep.json", "sweep.nc", "sweep.csv", "sweep"
-_MOST_NOTES = 20
+_MOST_NOTES, _MOST_REMARKS, _FEW_POINTS = 20, 5, 3
 _POINTS = "points"
 
 
@@ -192,31 +192,49 @@ def _tell_notes(
     summaries: Sequence[Mapping[str, Any] | None], labels: Sequence[str], files: Sequence[Path], watcher: Watcher
 ) -> None:
     """Tell the notes of the points' summaries, those of one code and place once: the most serious ones first, then the
-    most frequent. Remarks are counted. Where the texts differ, the text of the first point is shown with its label.
+    most frequent, with the points that they hold for. Where the texts differ, that of the first of the most serious
+    points is shown with its label. Of remarks the headlines are told.
 
     files : summary of each point, of which the one with most remarks is named.
     """
     told: dict[tuple[str, str], dict[str, set[int]]] = {}  # points by text, by what is said
-    levels: dict[tuple[str, str], str] = {}
+    levels: dict[tuple[str, str], dict[Level, set[int]]] = {}
     for point, summary in enumerate(summaries):
         for note in of_summary(summary or {}):
             said = (note["code"], note["text"] if note["code"] == PLAIN else note["where"])
             told.setdefault(said, {}).setdefault(note["text"], set()).add(point)
-            levels[said] = note["level"]
-    number = {said: len(set().union(*by_text.values())) for said, by_text in told.items()}
-    shown = [said for said in told if levels[said] != Level.INFO]
-    shown.sort(key=lambda said: (list(Level).index(Level(levels[said])), -number[said]))
+            levels.setdefault(said, {}).setdefault(Level(note["level"]), set()).add(point)
+    order = list(Level)
+    worst = {said: min(by_level, key=order.index) for said, by_level in levels.items()}
+    number = {said: set().union(*by_text.values()) for said, by_text in told.items()}
+    shown = [said for said in told if worst[said] != Level.INFO]
+    shown.sort(key=lambda said: (order.index(worst[said]), -len(number[said])))
     for said in shown[:_MOST_NOTES]:
-        text, points = next(iter(told[said].items()))
-        of = f" (figures of {labels[min(points)]})" if len(told[said]) > 1 else ""
-        watcher.note(f"{number[said]} of {counted(len(summaries), 'point')}{of}: {text}")
+        most = levels[said][worst[said]]
+        text, points = next((text, points) for text, points in told[said].items() if points & most)
+        first = f"figures of {labels[min(points & most)]}" if len(told[said]) > 1 else ""
+        beyond = f", outside the model in {len(most)}" if len(most) < len(number[said]) else ""
+        of = _points_said(number[said], labels, len(summaries), first)
+        watcher.note(f"{len(number[said])} of {counted(len(summaries), 'point')}{beyond}{of}: {text}")
     if (more := len(shown) - _MOST_NOTES) > 0:
         watcher.note(f"and {more} more, in the summary.json of points")
-    remarks = [said for said in told if levels[said] == Level.INFO]
+    remarks = [said for said in told if worst[said] == Level.INFO]
+    remarks.sort(key=lambda said: -len(number[said]))
+    for said in remarks[:_MOST_REMARKS]:
+        of = _points_said(number[said], labels, len(summaries), "")
+        headline = next(iter(told[said])).partition(". ")[0].rstrip(".")
+        watcher.note(f"remark, {len(number[said])} of {counted(len(summaries), 'point')}{of}: {headline}.")
     if remarks:
-        places = [set().union(*told[said].values()) for said in remarks]
-        most = max(range(len(files)), key=lambda point: sum(point in own for own in places))
-        watcher.note(f'{counted(len(remarks), "remark")}: read "notes" in {files[most]} (each point has its own)')
+        most_told = max(range(len(files)), key=lambda point: sum(point in number[said] for said in remarks))
+        watcher.note(f'{counted(len(remarks), "remark")}: read "notes" in {files[most_told]} (each point has its own)')
+
+
+def _points_said(points: set[int], labels: Sequence[str], count: int, first: str) -> str:
+    """Return the points that a note holds for, in brackets: those of few that are not all, and whose figures follow."""
+    few = sorted(points) if len(points) < count and len(points) <= _FEW_POINTS else []
+    words = [*([", ".join(labels[point] for point in few)] if few and not (first and len(few) == 1) else []), first]
+    said = "; ".join(word for word in words if word)
+    return f" ({said})" if said else ""
 
 
 def _plan_points(

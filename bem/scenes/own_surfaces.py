@@ -218,9 +218,9 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, 
         return _mirrored_where_bent(kind, data, found)
     if kind == "running-in":
         data["speeds"] = {"values": [data["speeds"]["first"]]}
-        # over a whole turn friction does not hang on the place where the roughness of both bodies meets
+        # over a whole turn friction and particles do not hang on the place where the roughness of both bodies meets
         turn = round(cells / abs(WearScenePart().shift))
-        data["cycles"] = {"count": _CYCLES, "averaged": turn, "coarser_grid": True}
+        data["cycles"] = {"count": _CYCLES, "averaged": turn, "settled": turn, "coarser_grid": True}
     data["depths"] = {"count": 64, "spacing": _length(cell / 2)}
     return _mirrored_where_bent(kind, data | {"wear": _wear(kind, data, cell)}, found)
 

@@ -306,6 +306,14 @@ def wears_on_a_track(scene: Any) -> bool:
     return wearing_bodies((scene.lower.build(), scene.upper.build()), scene.wear.wears)[0] == moving
 
 
+def cycles_of_a_turn(shape: tuple[int, int], shift: float) -> int:
+    """Return the cycles after which a moving surface is where it was, to half its slide in a cycle; 0 at rest.
+
+    It wraps around on its grid, so that this is the number of its rows over the cells that it slides in a cycle.
+    """
+    return round(shape[0] / abs(shift)) if shift else 0
+
+
 def worn_region(scene: Any, strip: FloatArray) -> tuple[int, FloatArray]:
     """Return the index of the first body that wears, and the fraction of its rows or cells in the contact region.
 

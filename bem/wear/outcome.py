@@ -41,6 +41,25 @@ def rms_within(heights: FloatArray, strip: NDArray[Any]) -> float:
     return math.sqrt(float(np.average(about**2, weights=weights)))
 
 
+def share_outside(before: FloatArray, after: FloatArray, strip: NDArray[Any]) -> float:
+    """Return the share of the worn volume beside a strip, weighted as for `strip_wear`; 0 where nothing wore."""
+    depth = before - after
+    total = float(depth.sum())
+    return 1.0 - float((depth * _weights(strip, depth.shape)).sum()) / total if total > 0 else 0.0
+
+
+def width_of(strip: NDArray[Any], grid: Grid) -> float | None:
+    """Return the width of a strip [m]: along x, or of a track (1, ny) along y; None of the whole surface."""
+    weights = np.asarray(strip, dtype=np.float64)
+    if weights.ndim == 1:
+        weights = weights[:, None]
+    if bool((weights == 1).all()):
+        return None
+    if weights.shape[0] == 1:
+        return float(weights.sum()) * grid.spacing[1]
+    return float(weights.sum(axis=0).max()) * grid.spacing[0]
+
+
 def _weights(strip: NDArray[Any], shape: tuple[int, ...]) -> FloatArray:
     """Return the weights of rows (nx,) or cells (nx, ny) as those of cells."""
     weights = np.asarray(strip, dtype=np.float64)

@@ -645,9 +645,22 @@ OUTCOMES = {
         (swinging_outcome(0.002), "0.11 over the first whole turn of 67 cycles and 0.11 over the last one"),
         swinging_outcome(0.0002),
     ),
+    "wear_outside_the_contact_region": (
+        "running-in-stribeck",
+        (Outcome({"volume_outside_region": [0.05, 0.2]}, {}), "20 % of the worn volume lies outside"),
+        Outcome({"volume_outside_region": [0.05, 0.09]}, {}),
+    ),
+    "running_in_within_its_error": (
+        "running-in-stribeck",
+        (
+            Outcome({"friction_initial": [0.11], "friction_run_in": [0.109], "friction_run_in_error": [0.002]}, {}),
+            "from 0.11 to 0.109, is less than its error of 0.002",
+        ),
+        Outcome({"friction_initial": [0.11], "friction_run_in": [0.1], "friction_run_in_error": [0.002]}, {}),
+    ),
     "less_than_one_particle": (
         "running-in-stribeck",
-        (particles_outcome(0.2), "regions that would come off. At this rate about 100 cycles shed 20"),
+        (particles_outcome(0.2), "regions that would come off. Read the particles per distance"),
         particles_outcome(0.25),
     ),
     "least_area_of_worn_surfaces": (
@@ -766,6 +779,16 @@ def test_a_swing_within_the_error_bars_is_not_told():
     for error, told in ((0.0001, 1), (0.003, 0)):
         errors = {"friction_initial_error": error, "friction_run_in_error": error}
         assert len(list(check(facts, Outcome(found.summary | errors, found.variables)))) == told
+
+
+@pytest.mark.internal
+def test_cycles_for_a_count_of_particles_follow_the_rate_in_the_table():
+    """The particles of all cycles fall off after the first; the rate of the last ones is what the table has."""
+    over = Variable(("cycle",), np.array([0.3, 0.1, 0.1, 0.1]), "1", "particles")
+    outcome = Outcome({"particles_per_cycle": [0.1]}, {"particles_over_cycles": over})
+    check = OUTCOME_CHECKS["less_than_one_particle"]
+    (told,) = check(facts_of("running-in-stribeck", "cycles.count=4", "cycles.settled=2", "cycles.averaged=2"), outcome)
+    assert "last 2 cycles, 0.1 a cycle, about 200 cycles shed 20" in told
 
 
 @pytest.mark.internal

@@ -311,7 +311,7 @@ def test_running_in_resumes_to_the_same_bits(tmp_path):
     resumed = compute(campaign_of(scene), tmp_path).outcome
     assert resumed.summary == summary
     for name, variable in outcome.variables.items():
-        assert np.array_equal(variable.values, resumed.variables[name].values), name
+        np.testing.assert_array_equal(variable.values, resumed.variables[name].values, err_msg=name)
 
 
 def test_temperatures_of_contacts_have_error_bars_where_surfaces_touch():

@@ -12,7 +12,16 @@ from bem.scenes import library
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import get_kind
 from bem.scenes.load import load_scene
-from bem.wear.outcome import contact_strip, drift, hertz_fraction, rms_error, sizes_over_cycles, strip_wear
+from bem.wear.outcome import (
+    contact_strip,
+    drift,
+    hertz_fraction,
+    rms_error,
+    share_outside,
+    sizes_over_cycles,
+    strip_wear,
+    width_of,
+)
 from bem.wear.state import PARTICLE_FIELDS
 
 pytestmark = pytest.mark.internal
@@ -123,3 +132,14 @@ def test_drift_tells_a_trend_from_scatter():
     assert drift([1.0, 0.9]) == pytest.approx(-0.1)
     assert drift([1.0]) is None
     assert drift(np.zeros(60)) is None
+
+
+def test_the_share_of_the_volume_outside_a_strip_and_its_width():
+    grid = Grid((4, 2), (1e-6, 2e-6), periodic=(True, True))
+    depth = np.array([[1.0, 1.0], [3.0, 3.0], [0.0, 0.0], [0.0, 0.0]])
+    strip = np.array([0.0, 1.0, 0.5, 0.0])
+    assert share_outside(depth, np.zeros_like(depth), strip) == pytest.approx(0.25)
+    assert share_outside(depth, depth, strip) == 0.0
+    assert width_of(strip, grid) == pytest.approx(1.5e-6)
+    assert width_of(np.array([[0.5, 0.0]]), grid) == pytest.approx(1e-6)  # of a track
+    assert width_of(np.ones((1, 1)), grid) is None

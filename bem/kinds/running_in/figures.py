@@ -60,11 +60,27 @@ def _cycles(name: str, text: str) -> Any:
         axes.set_ylabel(text)
         axes.set_xlim(1, max(2, cycle[-1]))
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-        start_at_zero(axes)
+        _show_range(axes)
         if len(groups) > 1:
             axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 
     return draw
+
+
+_NARROW = 0.5
+"""Lowest over highest value of curves above which the vertical axis shows their range and not zero."""
+_LEAST_RANGE = 0.02
+"""Least range of that axis over the highest value: rounding of equal values is not spread over it."""
+
+
+def _show_range(axes: Axes) -> None:
+    """Limit the vertical axis to the range of curves that change little, with margins; others begin at zero."""
+    low, high = float(axes.dataLim.y0), float(axes.dataLim.y1)
+    if not 0 < _NARROW * high < low < float("inf"):
+        start_at_zero(axes)
+        return
+    margin = 0.1 * (high - low) + 0.5 * max(_LEAST_RANGE * high - (high - low), 0.0)
+    axes.set_ylim(low - margin, high + margin)
 
 
 def _wear_over_cycles(run: Any, figure: Figure) -> None:
@@ -226,7 +242,7 @@ FIGURES = (
     ),
     FigureKind(
         "friction-over-cycles",
-        "Friction coefficient over the cycles.",
+        "Friction coefficient over the cycles; the axis begins at zero only where it changes by half and more.",
         ("cycle", "friction_over_cycles", "speed", "hardness"),
         _cycles("friction_over_cycles", "friction coefficient"),
         (6.2, 3.6),
@@ -234,7 +250,7 @@ FIGURES = (
     ),
     FigureKind(
         "contact-share-over-cycles",
-        "Asperity load share over the cycles.",
+        "Asperity load share over the cycles; the axis begins at zero only where it changes by half and more.",
         ("cycle", "contact_share", "speed", "hardness"),
         _cycles("contact_share", "asperity load share"),
         (6.2, 3.6),

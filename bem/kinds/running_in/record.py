@@ -38,6 +38,12 @@ _RADIUS = "equivalent radius of the particles of the last cycles.settled cycles"
 _FOLLOWS_CELL = f"{pieces.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
 
 
+def _turn(which: str) -> Figure:
+    """Figure of the mean friction over a whole turn of the moving roughness."""
+    text = f"friction coefficient, mean over the {which} whole turn of the moving roughness, where two turns fit"
+    return Figure("", text, headline=True, optional=True, unjudged=True)
+
+
 _heated = partial(Figure, "C", optional=True)
 
 
@@ -53,6 +59,18 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     )
     friction_initial: Annotated[float, Figure("", "friction coefficient in the first cycle", headline=True)]
     friction_run_in: Annotated[float, Figure("", f"friction coefficient, {RUN_IN}", headline=True)]
+    friction_first_turn: Annotated[float | None, _turn("first")] = field(default=None, kw_only=True)
+    friction_last_turn: Annotated[float | None, _turn("last")] = field(default=None, kw_only=True)
+    contact_region_width: Annotated[
+        float | None,
+        Figure(
+            "um", "width of the contact region of Sq and worn depth, where it is not all", optional=True, unjudged=True
+        ),
+    ] = field(default=None, kw_only=True)
+    volume_outside_region: Annotated[
+        float,
+        Figure("", "share of the volume worn from the body of Sq that lies outside the contact region", unjudged=True),
+    ] = field(default=0.0, kw_only=True)
     oil_scatter: Annotated[
         float | None, Figure("", OIL_SCATTER, name=f"friction_run_in{OIL}", optional=True, unjudged=True)
     ] = field(default=None, kw_only=True)
@@ -178,6 +196,7 @@ def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[Run
     from bem.wear.mixed_figures import least_friction
 
     summary: dict[str, Any] = {"cycles": scene.cycles.count, "load_N": scene.load, "reported_mean": scene.sizes.report}
+    summary |= {"averaged_cycles": scene.cycles.averaged, "settled_cycles": scene.cycles.settled}
     summary |= pieces.particles_of(scene)
     if len(scene.hardnesses) <= 2:
         return summary

@@ -101,6 +101,7 @@ def _record(
 ) -> RunningInRecord:
     """The figures of a wear loop and what is kept of it; `strip` : fraction of rows or cells in Hertz' contact."""
     from bem.wear.mixed_figures import mixed_figures
+    from bem.wear.outcome import share_outside, width_of
 
     setup, cycles, rows, averaged = shared.contact.setup, result.cycles, shared.rows, scene.cycles.averaged
     grid, load = setup.grid, scene.contact.on_patch(setup.load, setup.grid.lengths)
@@ -113,6 +114,10 @@ def _record(
     over |= wearing.particle_rates(scene, result, grid, number)
     over |= pieces.mean_radii(worn.late, scene.sizes, *_RADII)
     hot = scene.thermal != "off"
+    region = wearing.worn_region(scene, strip)[1]
+    over["contact_region_width"] = width_of(region, grid)
+    over["volume_outside_region"] = share_outside(worn.height_before, worn.height_after, region)
+    over |= _turns(scene, initial, over["friction_over_cycles"])
     return RunningInRecord(
         **worn.figures,
         **over,
@@ -148,6 +153,18 @@ def _record(
         frame=np.array(_frame_cycles(scene.cycles.count)[: len(own["pressure_frames"])]),
         **own,
     )
+
+
+def _turns(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], friction: FloatArray) -> dict[str, float]:
+    """Return the mean friction over the first and the last whole turn of a rough moving body; none below two turns."""
+    moving = initial[0 if scene.wear.frame == "cylinder" else 1]
+    turn = wearing.cycles_of_a_turn((moving.shape[0], moving.shape[1]), scene.wear.shift) if moving.any() else 0
+    if turn < 2 or len(friction) < 2 * turn:
+        return {}
+    return {
+        "friction_first_turn": float(friction[:turn].mean()),
+        "friction_last_turn": float(friction[-turn:].mean()),
+    }
 
 
 _RADII = ("particle_equivalent_radius", "number_mean_radius", "volume_mean_radius", "scattering_mean_radius")

@@ -16,6 +16,7 @@ from bem.grid import FloatArray, Grid
 from bem.notes import Level, Note
 from bem.notes.accuracy import NoBar, no_error_bar
 from bem.notes.checks import (
+    CHANGE_WITHIN_ERROR,
     FRICTION_SWINGS,
     LESS_THAN_A_PARTICLE,
     NO_PARTICLE_SIZES,
@@ -24,6 +25,7 @@ from bem.notes.checks import (
     PARTICLES_OF_BODY,
     SLOPES_LARGE,
     SURFACE_ROUGHENED,
+    WEAR_OUTSIDE_REGION,
     WEAR_STEPS_LONG,
 )
 from bem.notes.note import joined, percent
@@ -36,6 +38,7 @@ from bem.scenes.checks.roughened import roughened, with_pieces
 from bem.scenes.checks.words import numbers
 from bem.scenes.common import BODIES, SmoothSurface
 from bem.scenes.context import Outcome
+from bem.scenes.wearing import cycles_of_a_turn
 
 _SERIES = {
     "rms_height_over_cycles": "Sq of the worn surface",
@@ -109,15 +112,14 @@ _WINDOW = 25
 def _turn(facts: Facts) -> int:
     """Return the number of cycles after which a rough moving surface is where it was, to half its slide in a cycle.
 
-    The moving body wraps around on its grid, so that this is the number of rows over the cells that it slides in a
-    cycle. 0 where nothing rough moves, or where contacts of the scene have different turns.
+    0 where nothing rough moves, or where contacts of the scene have different turns.
     """
     turns = set()
     for case in facts.cases:
         moving = "lower" if case.wear is not None and case.wear.frame == "cylinder" else "upper"
         rough = not isinstance(case.surfaces.get(moving, SmoothSurface()), SmoothSurface)
-        moves = case.wear is not None and case.grid is not None and case.wear.shift != 0 and rough
-        turns.add(round(case.grid.shape[0] / abs(case.wear.shift)) if moves and case.grid and case.wear else 0)
+        moves = case.wear is not None and case.grid is not None and rough
+        turns.add(cycles_of_a_turn(case.grid.shape, case.wear.shift) if moves and case.grid and case.wear else 0)
     return turns.pop() if len(turns) == 1 else 0
 
 
@@ -188,6 +190,40 @@ def friction_that_swings_with_the_place(facts: Facts, outcome: Outcome) -> Itera
         )
 
 
+_OUTSIDE = 0.1
+"""Share of the worn volume outside the contact region above which figures of the region miss it."""
+
+
+@outcome_check
+def wear_outside_the_contact_region(facts: Facts, outcome: Outcome) -> Iterator[Note]:
+    """Sq and worn depth are those of Hertz' contact of smooth bodies; rough ones touch and wear beside it."""
+    shares = numbers(outcome.summary.get("volume_outside_region"))
+    many = [share for share in shares if share > _OUTSIDE]
+    if many and facts.of_kind("running-in"):
+        yield WEAR_OUTSIDE_REGION(share=max(many), of=_of(len(many), len(shares)))
+
+
+@outcome_check
+def running_in_within_its_error(facts: Facts, outcome: Outcome) -> Iterator[Note]:
+    """A difference of two figures that each have a larger error is no finding."""
+    if not facts.of_kind("running-in"):
+        return
+    turns = outcome.summary.get("friction_first_turn") is not None
+    friction = ("friction_first_turn", "friction_last_turn") if turns else ("friction_initial", "friction_run_in")
+    for words, (first, last), bar in (
+        ("friction", friction, "friction_run_in_error"),
+        ("Sq of the contact region (nm)", ("Sq_initial_nm", "Sq_final_nm"), "Sq_final_nm_error"),
+    ):
+        before, after, errors = (numbers(outcome.summary.get(key)) for key in (first, last, bar))
+        if not len(before) == len(after) == len(errors):
+            continue
+        within = [(e - abs(a - b), b, a, e) for b, a, e in zip(before, after, errors, strict=True) if abs(a - b) < e]
+        if within:
+            _, b, a, error = max(within)
+            of = _of(len(within), len(before))
+            yield CHANGE_WITHIN_ERROR(figure=words, before=b, after=a, error=error, of=of)
+
+
 def _errors(outcome: Outcome, name: str, loops: int) -> list[float]:
     """Return the errors of a figure of so many loops; 0 where they are not known."""
     errors = outcome.summary.get(f"{name}_error")
@@ -204,8 +240,22 @@ def less_than_one_particle(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     totals = over.values.reshape(-1, over.values.shape[-1]).sum(axis=-1)
     few = [float(total) for total in totals if 0 < total < 1]
     if few:
-        cycles = round(float(f"{over.values.shape[-1] * _COUNTABLE / max(few):.2g}"))
-        yield LESS_THAN_A_PARTICLE(number=max(few), of=_of(len(few), len(totals)), cycles=cycles, wanted=_COUNTABLE)
+        window = facts.scene.cycles.settled
+        rates, case = (
+            numbers(outcome.summary.get("particles_per_cycle")),
+            int(np.argmax(np.where(totals < 1, totals, 0))),
+        )
+        last = over.values.reshape(len(totals), -1)[case, -window:]
+        rate = (rates[case] if len(rates) == len(totals) else float(last.mean())) or max(few) / over.values.shape[-1]
+        cycles = round(float(f"{_COUNTABLE / rate:.2g}"))
+        yield LESS_THAN_A_PARTICLE(
+            number=max(few),
+            of=_of(len(few), len(totals)),
+            cycles=cycles,
+            wanted=_COUNTABLE,
+            rate=rate,
+            window=window,
+        )
 
 
 _COUNTABLE = 20
