@@ -34,6 +34,8 @@ _SMALLEST, _LARGEST = 1e-3, 2.6
 """Half-angles between which a load is sought [rad]."""
 _TRIALS, _LOAD_TOLERANCE = 100, 1e-10
 """Half-angles that are tried at most, and the relative deviation of the load at which one is found."""
+_ANGLE_RESOLUTION = 1e-14
+"""Relative width of a bracket of half-angles at which the search ends: no load is found between its ends."""
 _THINNEST = 0.001
 """Thinnest wall over the radius whose harmonics are summed."""
 _LARGER = 10.0
@@ -140,6 +142,8 @@ def conforming_contact(bodies: ConformingBodies, load: float, *, nodes: int = NO
             low, below = tried, found
         else:
             high = tried
+        if high - low < _ANGLE_RESOLUTION * high:
+            break
         tried = 0.0 if found.load <= 0 else found.half_angle * (load / found.load) ** (1 / slope)
     raise InputError(
         f"load {load:g} N/m: shaft and bush would touch over {math.degrees(2 * high):.0f} degrees, as without "
@@ -198,7 +202,9 @@ def _contact_over(bodies: ConformingBodies, half: float, nodes: int, wall: _Wall
     matrix[:nodes, nodes] = -np.cos(angle)
     matrix[nodes, :nodes] = (1 + 2 * (np.cos(np.outer(turn, orders)) @ np.ones(nodes - 1))) / nodes
     right = np.zeros(nodes + 1)
-    right[:nodes] = -bodies.clearance / scale
+    # over the distance of the shaft from a bore that it would fill: -clearance, less the clearance's part along cos,
+    # which leaves no difference of nearly equal numbers at small angles
+    right[:nodes] = -bodies.clearance / scale * 2 * np.sin(0.5 * angle) ** 2
     density = np.linalg.solve(matrix, right)[:nodes]  # pressure times sqrt(1 - x^2)
     load = half * bodies.radius * plain * float(density @ np.cos(angle))
     coefficients = np.concatenate([[np.mean(density)], 2 / nodes * values @ density])

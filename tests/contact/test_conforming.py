@@ -67,6 +67,20 @@ def test_small_contacts_are_hertz():
     assert more / few == pytest.approx(4, rel=0.02)
 
 
+@pytest.mark.parametrize("clearance", [7.5e-3 * RADIUS, 1e-4 * RADIUS])
+def test_light_loads_are_solved(clearance):
+    """Hertz to the relative clearance and the square of the angle, at every load of seven decades."""
+    bodies = ConformingBodies(STEEL, STEEL, RADIUS, clearance)
+    for load in np.geomspace(1e-2, 1e5, 71) * clearance / RADIUS:
+        found = conforming_contact(bodies, load)
+        half_width = cylinder_contact(
+            radius=bodies.equivalent_radius, contact_modulus=bodies.modulus, load=load
+        ).half_width
+        assert found.load == pytest.approx(load, rel=1e-6, abs=0)
+        near = clearance / RADIUS + found.half_angle**2
+        assert found.half_angle == pytest.approx(half_width / RADIUS, rel=2 * near + 1e-6, abs=0)
+
+
 def test_dissimilar_bodies_converge_with_the_nodes():
     pressures = [conforming_contact(POLYMER, 25e3, nodes=nodes).maximum_pressure for nodes in (12, 24, 96)]
     errors = [abs(one / pressures[-1] - 1) for one in pressures[:-1]]
