@@ -145,10 +145,13 @@ def bush_rows(model: PlainBushModel, film: FilmOfBush | None) -> list[tuple[str,
         ("pressure x velocity", _pv(model)),
         ("friction power", f"not known: {source}" if power is None else f"{plain_digits(power, 3)} W ({source})"),
         ("temperatures", _temperature(model, power)),
-        ("wear per hour", _wear(model)),
+        ("wear per hour", _wear(model, film)),
     ]
     if model.specific_wear_rate:
-        rows.append(("wear life", _life(model)))
+        highest = model.service_temperature
+        hot = power is not None and highest is not None and bush_temperature(model, power) > highest
+        lost = f"; the life does not hold above {(highest or 0.0) - CELSIUS:.3g} °C" if hot else ""
+        rows.append(("wear life", _life(model) + lost))
     return rows
 
 
@@ -249,7 +252,7 @@ def _temperature(model: PlainBushModel, power: float | None) -> str:
     return f"{said}; limit {highest - CELSIUS:.3g} °C ({source})"
 
 
-def _wear(model: PlainBushModel) -> str:
+def _wear(model: PlainBushModel, film: FilmOfBush | None) -> str:
     rate = model.specific_wear_rate
     if rate is None:
         return "not known: give specific_wear_rate of the bush, measured against this shaft, dry or in this lubricant"
@@ -259,6 +262,11 @@ def _wear(model: PlainBushModel) -> str:
     return (
         f"bush {new:.3g} um at the load line as new, {least:.3g} um worn in (4/pi of the "
         "mean pressure); Archard's law, the shaft does not wear"
+        + (
+            "; in mixed lubrication the rate given must be of a test in this liquid"
+            if film is not None and film.asperity_share >= LEAST_SHARE
+            else ""
+        )
     )
 
 

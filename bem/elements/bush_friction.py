@@ -7,12 +7,11 @@ Verified in tests/elements/test_plain_bush.py.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
-from bem.elements.contact import ElementContact
-from bem.elements.element import Element
-from bem.elements.plain_bush import PlainBushModel
-from bem.errors import InputError, Status
+from bem.errors import Status
 from bem.scenes.context import PlainContext
 
 
@@ -39,26 +38,21 @@ class _FirstRepetition(PlainContext):
         return super().seed(purpose, 0, *indices)
 
 
-def shared_friction(element: Element, contact: ElementContact) -> SharedFriction | None:
-    """Solve the load sharing of one contact of a bush between its film and a ground shaft of the given roughness.
+def shared_friction(scene: Mapping[str, Any], load: float) -> SharedFriction | None:
+    """Solve the load sharing of a scene of kind friction under one load [N]; None where it does not converge.
 
-    Return None for other elements, without roughness, where no such scene can be made, and where the balance does not
-    converge.
+    Raises
+    ------
+    InputError : a scene that cannot be made.
     """
-    model = element.model
-    if not isinstance(model, PlainBushModel) or model.rms_roughness is None or model.oil is None:
-        return None
     from bem.kinds.friction.kind import KIND
     from bem.kinds.friction.run import run
     from bem.scenes.load import load_scene
 
-    try:
-        scene = KIND.resolved(load_scene(element.scene(contact, "friction") | {"outputs": {"errors": False}}))
-        record = run(scene, _FirstRepetition(scene.seed))
-    except InputError:
-        return None
+    resolved = KIND.resolved(load_scene({**scene, "outputs": {"errors": False}}))
+    record = run(resolved, _FirstRepetition(resolved.seed))
     if record.status is not Status.CONVERGED:
         return None
     flash = record.flash_temperature
     hottest = None if flash is None or not math.isfinite(flash[0]) else float(flash[0])
-    return SharedFriction(float(record.friction[0]), float(record.contact_load[0]) / contact.load, hottest)
+    return SharedFriction(float(record.friction[0]), float(record.contact_load[0]) / load, hottest)

@@ -17,6 +17,7 @@ from typing import Any
 
 from bem.arguments import read_small
 from bem.elements.bush_answer import bush_temperature, friction_power_of
+from bem.elements.bush_friction import SharedFriction, shared_friction
 from bem.elements.cam_follower import CamModel
 from bem.elements.contact import CONFORMING, ElementContact
 from bem.elements.gear_pair import GearModel
@@ -24,7 +25,7 @@ from bem.elements.model import Contacts, ElementModel, HeatBalanceScene
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.plain_bush import HOUSING, PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
-from bem.elements.rough_scenes import bush_scene, conducts, life_scene, mixed_scene, rubbing_scene
+from bem.elements.rough_scenes import bush_rubbing_scene, bush_scene, conducts, life_scene, mixed_scene, rubbing_scene
 from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
@@ -330,11 +331,9 @@ class Element:
             )
         assumed = []
         if kind in (*MIXED, LIFE, "surface-temperature"):
-            dry = isinstance(self.model, PlainBushModel) and self.model.oil is None
-            if "boundary_friction" not in self.model.model_fields_set and not dry:
+            own = isinstance(self.model, PlainBushModel) and kind == "surface-temperature"
+            if "boundary_friction" not in self.model.model_fields_set and not own:
                 assumed.append(f"boundary friction {self.model.boundary_friction:g} is assumed")
-            if self.model.rms_roughness is not None:
-                assumed.append("surfaces are random ones of its rms_roughness")
         base = {
             "kind": kind,
             "name": self.model.name,
@@ -349,10 +348,10 @@ class Element:
             return made
         if kind == "surface-temperature":
             self._check_heat()
-            rubbing = rubbing_scene(self.model, contact, bodies, self._patch_modulus)
-            if isinstance(self.model, PlainBushModel) and self.model.oil is None:
-                self._rub_as_the_bush(self.model, rubbing)
-            return base | rubbing
+            if isinstance(self.model, PlainBushModel):
+                base["description"] += "; the bush, at rest, creeps so that the slice has a steady temperature"
+                return base | self._rubbing_bush(self.model, contact, bodies)
+            return base | rubbing_scene(self.model, contact, bodies, self._patch_modulus)
         film = self._film(contact, bodies, kind)
         if kind == LIFE:
             film, more = life_scene(self.model, contact, bodies, self._oil_table(), self._patch_modulus)
@@ -360,14 +359,35 @@ class Element:
             base["description"] = "; ".join([base["description"], *more])
         return base | film
 
-    @staticmethod
-    def _rub_as_the_bush(bush: PlainBushModel, scene: dict[str, Any]) -> None:
-        """Give a scene of kind surface-temperature friction and temperature of a dry bush, where they are known."""
-        power, _ = friction_power_of(bush, None)
-        if power is not None:
-            bulk = bush_temperature(bush, power)
-            scene["contact"]["friction"] = power / (bush.radial_load * bush.sliding_speed)
-            scene["heat"] |= {"lower_bulk": bulk, "upper_bulk": bulk}
+    def shared_friction(self, contact: ElementContact) -> SharedFriction | None:
+        """Solve the load sharing of one contact of a bush between its film and a ground shaft of the given roughness.
+
+        Return None for other elements, without roughness, where no such scene can be made, and where the balance does
+        not converge.
+        """
+        model = self.model
+        if not isinstance(model, PlainBushModel) or model.rms_roughness is None or model.oil is None:
+            return None
+        try:
+            return shared_friction(self.scene(contact, "friction"), contact.load)
+        except InputError:
+            return None
+
+    def _rubbing_bush(self, bush: PlainBushModel, contact: ElementContact, bodies: dict[str, Any]) -> dict[str, Any]:
+        """Return the keys of a scene of kind surface-temperature with the bush's own friction and temperature.
+
+        The friction is the one given, in a liquid that of film and asperities, of a dry bush the usual one; the
+        boundary friction where none of them is known.
+        """
+        slid = bush.radial_load * bush.sliding_speed
+        friction, bulk = bush.boundary_friction, bush.bulk_temperature or bush.surroundings
+        if bush.oil is None or bush.friction is not None:
+            power, _ = friction_power_of(bush, None)
+            if power is not None:
+                friction, bulk = power / slid, bush_temperature(bush, power)
+        elif (shared := self.shared_friction(contact)) is not None:
+            friction = shared.friction
+        return bush_rubbing_scene(bush, contact, bodies, modulus=self._patch_modulus, friction=friction, bulk=bulk)
 
     @property
     def _layered(self) -> bool:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from bem.elements.contact import ElementContact
 from bem.errors import InputError
 from bem.materials import Body, softer_hardness
+from bem.surfaces.processes import PROCESSES
 
 if TYPE_CHECKING:
     from bem.elements.model import ElementModel
@@ -33,6 +34,11 @@ _CELLS_PER_SHORTEST_WAVE = 6.0
 _HURST = 0.8
 """Hurst exponent of machined surfaces; 0.7 to 0.9 are usual."""
 
+_CELLS_PER_CORRELATION_LENGTH, _LENGTHS_ACROSS, _RUBBED_CELLS, _MOST_CELLS = 3.25, 32, 128, 4096
+"""Cells of a bush's slice to the correlation length of its shaft along the sliding; correlation lengths and cells
+across it, four to each; most cells along the sliding."""
+_CREEP = 1e-3
+"""Speed of a bush at rest over the shaft's in scenes of surface temperature."""
 _CYCLES = {"count": 50, "averaged": 10, "settled": 20}
 ASSUMED_SLIDING, ASSUMED_WEAR_RATE, ASSUMED_CYCLES = 0.02, 2e-17, 1_000_000
 """Slide-to-roll ratio of lives in place of pure rolling (rolling bearings slip by 1 to 3 %), wear rate of lives without
@@ -228,7 +234,7 @@ def bush_scene(
         sharing["film_modulus"] = model.film_modulus
     return {
         "thermal": _thermal(model, contact),
-        "lower": {"material": shaft, "surface": {"process": "ground", "rms_height": model.rms_roughness}},
+        "lower": {"material": shaft, "surface": ground_shaft(model)},
         "upper": {"material": bush},
         "contact": {
             "radius": contact.radius,
@@ -240,6 +246,81 @@ def bush_scene(
         "speeds": {"values": [abs(contact.mean_speed) * (1 + 0.5 * ratio)], "slide_roll_ratio": ratio},
         **({"supply": {"distance": contact.inlet}} if math.isfinite(contact.inlet) else {}),
         "sharing": sharing,
+    }
+
+
+def ground_shaft(model: PlainBushModel) -> dict[str, Any]:
+    """Return the table [surface] of a ground shaft with the roughness of both bodies.
+
+    Grooves of a shaft that is ground as it turns lie along the sliding, x.
+    """
+    across, along = _ground_lengths(model)
+    found: dict[str, Any] = {"process": "ground", "lay": "x" if model.lay == "around" else "y"}
+    found["rms_height"] = model.rms_roughness
+    if model.correlation_length is not None:
+        found["correlation_length"] = math.sqrt(across * along)
+    return found
+
+
+def _ground_lengths(model: PlainBushModel) -> tuple[float, float]:
+    """Return the correlation lengths across and along the grooves [m]."""
+    ground = PROCESSES["ground"]
+    assert ground.across is not None
+    assert ground.along is not None
+    across = model.correlation_length or ground.across
+    return across, across * ground.along / ground.across
+
+
+def bush_rubbing_scene(
+    model: PlainBushModel,
+    contact: ElementContact,
+    bodies: Mapping[str, Mapping[str, Any]],
+    *,
+    modulus: float,
+    friction: float,
+    bulk: float,
+) -> dict[str, Any]:
+    """Keys of a scene of kind surface-temperature of a bush: a slice with the ground shaft of kind friction.
+
+    Under an endless line a body at rest has no steady temperature: the bush creeps at a thousandth of the shaft's
+    speed. A hundred times faster or slower moves the rise of a steel shaft in PEEK by 2 %, as the shaft takes the heat.
+
+    Parameters
+    ----------
+    model : the bush.
+    contact : its equivalent cylinder.
+    bodies : tables of `lower` and `upper` with their materials.
+    modulus : contact modulus [Pa] of the contact's width.
+    friction : coefficient.
+    bulk : temperature of both bodies [K].
+    """
+    assert contact.length is not None
+    side = _LINE_HALF_WIDTHS * contact.half_width(modulus)
+    made = {name: dict(body) for name, body in bodies.items()}
+    shape, width = (128, 32), side / 4
+    if model.rms_roughness is not None:
+        made["lower"]["surface"] = ground_shaft(model)
+        across, along = _ground_lengths(model)
+        along_x, along_y = (along, across) if model.lay == "around" else (across, along)
+        cells = 16 * math.ceil(side / along_x * _CELLS_PER_CORRELATION_LENGTH / 16)
+        shape, width = (min(max(cells, 128), _MOST_CELLS), _RUBBED_CELLS), _LENGTHS_ACROSS * along_y
+    patch = Patch(shape, (side, width), (False, True))
+    speed = contact.speeds[0]
+    return {
+        "grid": patch.table(),
+        **made,
+        "shape": {"kind": "cylinder", "radius": contact.radius},
+        "contact": {
+            "load": contact.load * width / contact.length,
+            "behaviour": "elastic" if hardness_of(model) is None else "capped",
+            "friction": friction,
+        },
+        "heat": {
+            "lower_speed": speed,
+            "upper_speed": _CREEP * speed,
+            "lower_bulk": bulk,
+            "upper_bulk": bulk,
+        },
     }
 
 

@@ -12,7 +12,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from bem.elements.bush_friction import shared_friction
 from bem.elements.contact import ElementContact
 from bem.elements.element import Element
 from bem.elements.plain_bush import PlainBushModel
@@ -86,7 +85,7 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
     found = case.on(POINTS)
     figures = traction_figures(case, found)
     hottest = max((figures[f"{body}_temperature"] for body in ("lower", "upper")), default=None) if case.hot else None
-    shared = shared_friction(element, contact)
+    shared = element.shared_friction(contact)
     if shared is not None and shared.hottest is not None:
         hottest = max(shared.hottest, hottest or 0.0)
     return Running(

@@ -17,7 +17,7 @@ _UNITS = {
     "viscosity": "Pa*s",
     **dict.fromkeys(("film_modulus", "youngs_modulus"), "Pa"),
     **dict.fromkeys(("values", "mean_speed", "lower_speed", "upper_speed"), "m/s"),
-    **dict.fromkeys(("roughness", "rms_height", "rolloff_wavelength", "cutoff_wavelength"), "m"),
+    **dict.fromkeys(("roughness", "rms_height", "correlation_length", "rolloff_wavelength", "cutoff_wavelength"), "m"),
     **dict.fromkeys(
         ("thickness", "radius", "radius_y", "radii", "width", "distance", "lengths", "spacing", *"ABCDE"), "m"
     ),
@@ -29,16 +29,25 @@ _PURE_ROLLING = "    # pure rolling: asperities carry load but do not rub; for a
 """Comment on a slide-to-roll ratio of zero in a scene of kind friction."""
 
 
+_RANDOM = "    # random, of the element's rms_roughness; put your measured map here"
+"""Comment on a surface."""
+
+
 def scene_text(table: Mapping[str, Any]) -> str:
     """Return the table of an element's scene as TOML text for a reader: tables under headings, values with units."""
     tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
     rolls = table.get("kind") == "friction" and table["speeds"]["slide_roll_ratio"] == 0
     lines = [f"{key} = {_value(key, value)}" for key, value in table.items() if key not in tables]
     for key, inner in tables.items():
-        lines += ["", f"[{key}]", *(f"{name} = {_value(name, value)}" for name, value in inner.items())]
+        lines += ["", f"[{key}]", *(_line(name, value) for name, value in inner.items())]
         if rolls and key == "speeds":
             lines[-1] += _PURE_ROLLING
     return "\n".join(lines) + "\n"
+
+
+def _line(name: str, value: Any) -> str:
+    drawn = name == "surface" and isinstance(value, Mapping)
+    return f"{name} = {_value(name, value)}{_RANDOM if drawn else ''}"
 
 
 def _value(key: str, value: Any) -> str:

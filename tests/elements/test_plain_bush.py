@@ -34,6 +34,7 @@ from bem.notes.elements import (
     VISCOSITY_FIXED,
 )
 from bem.reference_solutions.journal_bearing import journal_film, sommerfeld_number
+from bem.scenes.load import load_scene
 
 WATER = tomllib.loads(element_template("plain-bush")) | {"name": "bush"}
 DRY = {key: value for key, value in WATER.items() if key != "oil"}
@@ -321,6 +322,26 @@ def test_a_peak_above_the_yield_stress_is_noted():
     assert note.values["limit"] == pytest.approx(100)
 
 
+def test_the_scene_of_surface_temperature_is_a_slice_with_the_ground_shaft():
+    """Its bush creeps, its shaft and friction are those of kind friction, with grooves along the sliding."""
+    element = load_element(WATER | {"bulk_temperature": "60 degC"})
+    contact = element.worst()
+    rubbing, mixed = (element.scene(contact, kind) for kind in ("surface-temperature", "friction"))
+    assert rubbing["grid"]["periodic"] == [False, True]
+    assert rubbing["lower"]["surface"] == mixed["lower"]["surface"]
+    assert rubbing["lower"]["surface"]["lay"] == "x"
+    assert "surface" not in rubbing["upper"]
+    assert rubbing["contact"]["friction"] == pytest.approx(run_all(element)[0].mixed_friction)
+    assert rubbing["contact"]["load"] == pytest.approx(500 * rubbing["grid"]["lengths"][1] / 0.02)
+    assert 0 < rubbing["heat"]["upper_speed"] <= 1e-3 * rubbing["heat"]["lower_speed"]
+    axial = load_element(WATER | {"bulk_temperature": "60 degC", "lay": "axial", "correlation_length": "10 um"})
+    surface = axial.scene(contact, "friction")["lower"]["surface"]
+    assert surface["lay"] == "y"
+    assert surface["correlation_length"] == pytest.approx(10e-6 * math.sqrt(10))
+    built = load_scene(axial.scene(contact, "friction")).lower.surface
+    assert built.correlation_lengths == pytest.approx((10e-6, 100e-6), rel=1e-9, abs=0)
+
+
 def test_a_short_bush_leaks():
     short = load_element(WATER)
     (note,) = [note for note in short.notes() if note.code == BUSH_LEAKS.code]
@@ -448,6 +469,11 @@ def test_wear_and_life_in_words():
     hours = sliding_to_depth(element.model, 1e-4) / element.model.sliding_speed / 3600
     assert said["wear life"].startswith(f"{hours:.3g} h")
     assert "80 deg" in said["wear life"]
+    assert "does not hold above 250 °C" in said["wear life"]
+    cool = load_element(WORN | {"heat_balance": {"conductance": "5 W/K"}})
+    assert "does not hold" not in dict(answer(cool, ()))["wear life"]
+    wet = load_element(WATER | {"specific_wear_rate": "1e-6 mm3/(N m)", "bulk_temperature": "60 degC"})
+    assert "test in this liquid" in dict(answer(wet, run_all(wet)))["wear per hour"]
     assert "not known" in dict(answer(load_element(DRY), ()))["wear per hour"]
     assert len(element_figure(element, ()).axes) == 2
 

@@ -75,6 +75,8 @@ class RoughSurface:
         """Rms height, slope and correlation length in words."""
         length = self.correlation_length
         found = "" if math.isnan(length) else f", correlation length {si(length, 'm')}"
+        if isinstance(self.table, GeneratedSurface) and self.table.elongation is not None:
+            found = f", {_both_lengths(self.correlation_lengths)}"
         return f"Sq {si(self.rms_height, 'm')}, rms slope {self.rms_slope:.2g}{found}"
 
 
@@ -89,6 +91,10 @@ def rough_surface(body: str, table: build.AnySurface, grid: Grid, seed: int) -> 
     if isinstance(table, MeasuredSurface):
         return _measured(body, table, grid, maps.content_of(table))
     return None
+
+
+def _both_lengths(lengths: tuple[float, float]) -> str:
+    return f"correlation length {si(lengths[0], 'm')} along x, {si(lengths[1], 'm')} along y"
 
 
 def _described(heights: FloatArray, grid: Grid) -> tuple[float, float, float]:
@@ -115,6 +121,8 @@ def _generated(body: str, table: GeneratedSurface, grid: Grid, seed: int) -> Rou
     else:
         assert table.correlation_length is not None
         made = f"generated with correlation length {si(table.correlation_length, 'm')}"
+        if table.elongation is not None and table.correlation_lengths is not None:
+            made = f"generated with {_both_lengths(table.correlation_lengths)}"
     if (table.skewness, table.kurtosis) != (0.0, 3.0):
         made += f", skewness {table.skewness:g}, kurtosis {table.kurtosis:g}"
     made += _marks_said(table, grid)
