@@ -67,15 +67,6 @@ class ContactPoint:
         """Direction from the rail to the wheel (y, z)."""
         return math.sin(self.angle), -math.cos(self.angle)
 
-    @property
-    def spin(self) -> float:
-        """Spin creepage that the contact angle makes [1/m], -sin(angle) / rolling radius.
-
-        The rolling velocity of the wheel's surface varies with its radius across the tangent plane, so that the rail
-        turns about the normal relative to the wheel (Kalker 1990); the sign is that of `bem.solve_rolling`.
-        """
-        return -math.sin(self.angle) / self.rolling_radius
-
 
 @dataclass(frozen=True)
 class WheelOnRail:
@@ -230,3 +221,17 @@ class WheelOnRail:
         """Return the relative curvature along x at a contact point [1/m], by Meusnier's theorem."""
         axis = point.angle - self.roll  # between the normal and the wheel's radius
         return math.cos(axis) / point.rolling_radius + math.cos(point.angle) / (self.rail_radius - point.z)
+
+    def spin(self, point: ContactPoint) -> float:
+        """Return the spin creepage that the contact angle makes [1/m].
+
+        Wheel and roller turn about axes that the tangent plane is inclined to by angle - roll and by angle. Their
+        radii, and with them the velocities of their surfaces, vary across the plane:
+
+            spin = -sin(angle - roll)/rolling radius - sin(angle)/(rail_radius - z).
+
+        The rail turns about the normal relative to the wheel (Kalker 1990, of an axis without roll); the sign is that
+        of `bem.solve_rolling`. Of a yawed wheel, factors of 1 - yaw^2/2 are left out.
+        """
+        wheel = math.sin(point.angle - self.roll) / point.rolling_radius
+        return -wheel - math.sin(point.angle) / (self.rail_radius - point.z)

@@ -28,11 +28,39 @@ def test_two_circles_touch_on_the_line_of_their_centres():
     assert point.rolling_radius == pytest.approx(0.46 - 0.05 * (1 - math.cos(angle)), rel=1e-12)
     assert placed.lateral_curvature(point) == pytest.approx(1 / 0.08 + 1 / 0.05, rel=1e-5)
     assert placed.rolling_curvature(point) == pytest.approx(math.cos(angle) / point.rolling_radius, rel=1e-9)
-    assert point.spin == pytest.approx(-math.sin(angle) / point.rolling_radius, rel=1e-9)
+    assert placed.spin(point) == pytest.approx(-math.sin(angle) / point.rolling_radius, rel=1e-9)
     roller = WheelOnRail(wheel, rail, 0.46, rail_radius=0.5, lateral=0.03)
     assert roller.rolling_curvature(point) == pytest.approx(
         math.cos(angle) * (1 / point.rolling_radius + 1 / (0.5 - point.z)), rel=1e-9
     )
+
+
+def distance_from_axis(at, through, along):
+    """Distance of a point from a line in space."""
+    return float(np.linalg.norm(np.cross(at - through, along / np.linalg.norm(along))))
+
+
+@pytest.mark.parametrize(("roll", "rail_radius"), [(0.0, math.inf), (0.1, math.inf), (-0.06, 0.5)])
+def test_spin_is_the_difference_of_the_surfaces_velocities_along_the_tangent(roll, rail_radius):
+    """A surface moves as its distance from its axis: the wheel's axis is rolled, that of a roller horizontal."""
+    rail, wheel = circle(0.08, (0.0, 0.08)), circle(0.05, (0.0, -0.05), side=1)
+    placed = WheelOnRail(wheel, rail, 0.46, rail_radius=rail_radius, lateral=0.03, roll=roll)
+    point = placed.contact_points[0]
+    x, y, z = (float(one[0]) for one in placed.wheel_surface(np.array([point.wheel_parameter]), np.array([point.turn])))
+    step = 1e-6 * np.array([0.0, *point.tangent])
+    # the wheel's axis passes through the point above its origin, which lies in the height z = 0 of `wheel_surface`
+    through = np.array([0.0, placed.lateral + 0.46 * math.sin(roll), -0.46 * math.cos(roll)])
+    along = np.array([0.0, math.cos(roll), math.sin(roll)])
+    here = np.array([x, y, z])
+    radii = [distance_from_axis(here + side * step, through, along) for side in (-1, 1)]
+    expected = -(radii[1] - radii[0]) / 2e-6 / distance_from_axis(here, through, along)
+    if math.isfinite(rail_radius):
+        here, through = np.array([point.x, point.y, point.z]), np.array([0.0, 0.0, rail_radius])
+        along = np.array([0.0, 1.0, 0.0])
+        radii = [distance_from_axis(here + side * step, through, along) for side in (-1, 1)]
+        # the roller's surface moves the same way, and is smaller where the wheel is larger
+        expected += (radii[1] - radii[0]) / 2e-6 / distance_from_axis(here, through, along)
+    assert placed.spin(point) == pytest.approx(expected, rel=1e-7)
 
 
 def test_rolling_radius_differences_are_those_of_en15302():

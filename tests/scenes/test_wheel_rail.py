@@ -106,11 +106,12 @@ def test_a_file_that_changes_after_a_run_is_refused(circles, tmp_path):
 
 
 def test_spin_of_the_contact_angle_is_added_once_unless_declined(circles):
-    point = load_scene(scene(circles)).shape.placed().contact_points[0]
+    placed = load_scene(scene(circles)).shape.placed()
+    point = placed.contact_points[0]
     rolling = scene(circles, "rolling", roll={"friction": 0.3, "spin": "0.1 1/m"}, outputs={"errors": False})
     with_spin, _, resolved = run(rolling)
-    assert point.spin == pytest.approx(-math.sin(math.radians(20)) / point.rolling_radius, rel=1e-6)
-    assert with_spin.spin == pytest.approx(0.1 + point.spin, rel=1e-9)
+    assert placed.spin(point) == pytest.approx(-math.sin(math.radians(20)) / point.rolling_radius, rel=1e-6)
+    assert with_spin.spin == pytest.approx(0.1 + placed.spin(point), rel=1e-9)
     assert get_kind("rolling").resolve(resolved).roll.spin == resolved.roll.spin
     declined = rolling | {"roll": {"friction": 0.3, "spin": "0.1 1/m", "contact_angle_spin": False}}
     without, _, _ = run(declined)
@@ -131,7 +132,7 @@ def test_a_longitudinal_creepage_of_the_rolling_radius_is_the_spin_beside_the_co
     ]
     # the lower body's velocity over that of rolling: (r(y) - r) / r
     slope = (radii[1] - radii[0]) / (2 * step) / point.rolling_radius
-    assert -point.spin == pytest.approx(slope, rel=1e-4)
+    assert -placed.spin(point) == pytest.approx(slope, rel=1e-4)
 
 
 @pytest.mark.parametrize(

@@ -178,7 +178,7 @@ class RollScene(Table):
         "Spin creepage: relative angular velocity about the normal over the rolling velocity.", "basic", default=0.0
     )
     contact_angle_spin: bool | None = key(
-        "Add the spin of the contact angle of profiles, -sin(angle) / rolling radius, to spin.",
+        "Add the spin of the contact angle of profiles to spin, -sin(angle - roll) / rolling radius on a rail.",
         "advanced",
         default=None,
         reason='true for shape.kind = "profiles"',
@@ -296,7 +296,8 @@ class RolledScene(StickingScene):
         scene = super().resolved()
         if scene.shape.kind != "profiles" or scene.roll.contact_angle_spin is False:
             return scene
-        spin = scene.roll.spin + scene.shape.placed().contact_points[0].spin
+        placed = scene.shape.placed()
+        spin = scene.roll.spin + placed.spin(placed.contact_points[0])
         return scene.model_copy(
             update={"roll": scene.roll.model_copy(update={"spin": spin, "contact_angle_spin": False})}
         )
