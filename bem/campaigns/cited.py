@@ -192,6 +192,11 @@ def _of_contact(scene: Any) -> Iterator[tuple[str, str]]:
         yield from _RELAXING_IN_TIME.items()
 
 
+_WATER = "water"
+"""Base of the oil whose shear limits are those of mineral oil and have no effect: isoviscous, it is never sheared so
+far."""
+
+
 def catalogue_sources(scene: SceneModel) -> dict[str, str]:
     """Return the sources of the constants of a scene: materials, oils and surfaces of the catalogues, by name.
 
@@ -212,7 +217,8 @@ def catalogue_sources(scene: SceneModel) -> dict[str, str]:
             for name, _, source in oil_rows(item.build()):
                 if name in _CONSTANTS and not source.startswith("given"):
                     found[f"oil {item.grade}, {name}"] = source
-            if oil.shear is not None and any(isinstance(one, Law) and one.name == "base_oil" for one in _inside(item)):
+            base_oil = any(isinstance(one, Law) and one.name == "base_oil" for one in _inside(item))
+            if oil.shear is not None and base_oil and oil.base != _WATER:
                 for name, constant in oil.shear.constants().items():
                     found[f"oil {item.grade}, {name}"] = constant.source
     return found

@@ -96,7 +96,7 @@ def _of_element(name: str) -> tuple[dict[str, list[str]], dict[str, str]]:
     from bem.campaigns.cited import PROGRAM, catalogue_sources, sources_of
     from bem.elements.element import load_element, read_element
     from bem.elements.running import operating_places
-    from bem.elements.sources import sources_of_element
+    from bem.elements.sources import constants_of_element, sources_of_element
     from bem.errors import InputError
     from bem.scenes.load import load_scene
 
@@ -114,4 +114,4 @@ def _of_element(name: str) -> tuple[dict[str, list[str]], dict[str, str]]:
         constants = catalogue_sources(film) | constants
         for key, methods in sources_of(film).items():
             found[key] = list(dict.fromkeys([*found.get(key, []), *methods]))
-    return found, constants
+    return found, constants | constants_of_element(element)

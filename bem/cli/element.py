@@ -253,7 +253,7 @@ def _answer(found: Element, runs: Sequence[Running]) -> None:
     for sentence in found.found.geometry:
         print_text(sentence)
     count = len(found.found.contacts)
-    solved = f", {len(runs)} solved films" if runs else ""
+    solved = f", {len(runs)} solved film{'s' if len(runs) > 1 else ''}" if runs else ""
     options = "--contacts shows them, --table FILE.csv and --figure FILE.png write them"
     print_text(f"{count} contact{'s' if count > 1 else ''}{solved}: {options}.")
 

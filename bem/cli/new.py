@@ -163,6 +163,7 @@ _ELEMENTS = (
     ),
     *("plain-bush", "plain-bearing", "sleeve-bearing", "sliding-bearing"),
     *("journal-bearing", "hydrodynamic-bearing"),
+    *("polymer-bush", "polymer-bushing", "polymer-bearing"),
     *("bush", "bushing", "bushes", "bushings", "grease"),
     *("seal", "seals", "lip-seal", "scuffing", "scoring", "bearing-life", "rating-life", "l10"),
     *("worm-gear", "bevel-gear", "hypoid-gear", "internal-gear", "planetary-gear"),

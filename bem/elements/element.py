@@ -23,7 +23,7 @@ from bem.elements.contact import CONFORMING, ElementContact
 from bem.elements.gear_pair import GearModel
 from bem.elements.model import Contacts, ElementModel, HeatBalanceScene
 from bem.elements.piston_ring import PistonRingModel
-from bem.elements.plain_bush import HOUSING, PlainBushModel
+from bem.elements.plain_bush import HOUSING, PlainBushModel, with_pressure_viscosity
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.rough_scenes import bush_rubbing_scene, bush_scene, conducts, life_scene, mixed_scene, rubbing_scene
 from bem.errors import InputError
@@ -88,6 +88,7 @@ _SHORT = {
     "cam": "cam-follower",
     "ring": "piston-ring",
     **dict.fromkeys(("bush", "bushing", "bushes", "bushings"), "plain-bush"),
+    **dict.fromkeys(("polymer-bush", "polymer-bushing", "polymer-bearing"), "plain-bush"),
     **dict.fromkeys(("plain-bearing", "sleeve-bearing", "sliding-bearing"), "plain-bush"),
 }
 _ROUGHNESS = ("ra", "rq", "sq", "sa", "rz")
@@ -526,6 +527,8 @@ def load_element(source: str | Path | Mapping[str, Any]) -> Element:
         listed = ", ".join(f'"{name}"' for name in MODELS)
         found = show(table.get("element"))
         raise InputError(f"element = {found}: not allowed{nearest(kind, MODELS)}; allowed: {listed}")
+    if kind == "plain-bush" and isinstance(table.get("oil"), Mapping):
+        table["oil"] = with_pressure_viscosity(table["oil"])
     try:
         return Element(validate(table, MODELS[kind]), table)
     except InputError as error:  # what is wrong with the whole is said of the element

@@ -11,8 +11,9 @@ tests/elements/test_plain_bush.py.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cached_property
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
@@ -22,7 +23,7 @@ from bem.elements.model import Contacts, ElementModel
 from bem.lubrication.oils.catalogue import find_oil
 from bem.materials import CATALOGUE, Material
 from bem.notes import Note
-from bem.notes.elements import BUSH_CONFORMS, BUSH_LEAKS, BUSH_SWINGS
+from bem.notes.elements import BUSH_CONFORMS, BUSH_GLYCOL, BUSH_LEAKS, BUSH_SWINGS
 from bem.scenes.common import MaterialScene, PositiveLength, Table, problem
 from bem.scenes.units import Angle, Dimension, Force, Rate, Ratio, RotationSpeed, Temperature
 
@@ -58,6 +59,10 @@ FAR_FROM_CYLINDER = 0.05
 LONG = 5.0
 """Length over the width of the contact below which leakage at the ends is said: our choice, as no film of finite length
 was solved. What leaks is of the order of the square of width over length."""
+LARGEST_WEAR_RATE = 1e-10
+"""Wear rate [m^2/N], 0.1 mm^3/(N m), beyond which the unit is missing; worn-out bushes have 1e-3 mm^3/(N m)."""
+GLYCOL = 5e-9
+"""Pressure-viscosity coefficient of water-glycol [1/Pa], the middle of the usual 4 to 6 1/GPa; not measured."""
 WATERY = 4000.0
 """Heat capacity [J/(kg K)] from which a liquid is taken for water; glycol and water have up to 3900."""
 PressureVelocity = Annotated[float, Dimension("W/m^2", "a pressure times a speed", "0.2 MPa*m/s")]
@@ -81,6 +86,9 @@ class PlainBushModel(ElementModel):
     mean pressure times sliding speed. `maximum_temperature`: of the bush.
     `permitted_wear`: depth at the load line at which the bush is worn out.
     """
+
+    OTHER_KEYS: ClassVar = ("bore",)
+    """Keys that stand in place of others."""
 
     element: Literal["plain-bush"] = "plain-bush"
     shaft_diameter: PositiveLength
@@ -135,6 +143,12 @@ class PlainBushModel(ElementModel):
             raise problem("wall is below 1 % of the shaft diameter", "a thicker wall; a thin lining is a coating")
         if self.housing is not None and self.wall is None:
             raise problem("housing without wall", "wall beside housing")
+        rate = self.specific_wear_rate
+        if rate is not None and rate > LARGEST_WEAR_RATE:
+            raise problem(
+                f"specific_wear_rate {rate:g} m^2/N is ten decades or so beyond that of any bush",
+                f'a unit beside the number, such as "{rate:g} mm^3/(N*m)"',
+            )
         if self.wall is not None and (self.permitted_wear or 0.0) >= self.wall:
             raise problem("permitted_wear is not below the wall", "a worn depth that leaves some wall")
         return self
@@ -267,9 +281,23 @@ class PlainBushModel(ElementModel):
         slender = self.length / (2 * self.cylinder.half_angle * self.bodies.cylinder.radius)
         if self.oil is not None and slender < LONG:
             notes.append(BUSH_LEAKS(ratio=slender))
+        coefficient = None if self.oil is None else self.oil.pressure_viscosity
+        if self.oil is not None and self.oil.grade is not None and coefficient == GLYCOL:
+            notes.append(BUSH_GLYCOL(change=math.expm1(coefficient * self.conforming.maximum_pressure)))
         if self.oscillation is not None and self.oil is not None:
             notes.append(BUSH_SWINGS())
         return tuple(notes)
+
+
+def with_pressure_viscosity(oil: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return a table of an oil, of water-glycol with `GLYCOL` where it has no pressure-viscosity coefficient.
+
+    The pressures of bushes raise its viscosity by a few per cent at most.
+    """
+    glycol = str(oil.get("grade", "")).lower().startswith("water-glycol")
+    if not glycol or oil.get("pressure_viscosity") is not None:
+        return oil
+    return {**oil, "pressure_viscosity": GLYCOL}
 
 
 WORN_IN = 4 / math.pi

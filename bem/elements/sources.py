@@ -7,7 +7,7 @@ from bem.elements.cam_follower import CamModel
 from bem.elements.element import Element
 from bem.elements.gear_pair import GearModel
 from bem.elements.piston_ring import PistonRingModel
-from bem.elements.plain_bush import PlainBushModel
+from bem.elements.plain_bush import AREA_FACTOR, SERVICE_TEMPERATURES, TRANSFER, PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.reference_solutions import pin_in_hole
 
@@ -25,6 +25,32 @@ _OF_MODEL: dict[type, dict[str, str]] = {
     PistonRingModel: {"reynolds1886": "film of the ring"},
     PlainBushModel: dict.fromkeys(pin_in_hole.CITES, "conforming contact, closed form that it is verified against"),
 }
+
+
+def constants_of_element(element: Element) -> dict[str, str]:
+    """Return the sources of assumed constants by name, as sentences; only bushes have any.
+
+    The sentences say what is quoted from memory.
+    """
+    model = element.model
+    if not isinstance(model, PlainBushModel):
+        return {}
+    bush, found = model.second.build().name, {}
+    if model.wall is not None:
+        found["wall of the bush"] = (
+            "Michell's stress functions: Timoshenko and Goodier, Theory of Elasticity, from memory"
+        )
+    if model.oil is None and model.friction is None and model.dry_friction is not None:
+        found[f"friction of dry {bush}"] = f"{model.dry_friction[0]:g}: {model.dry_friction[1]}"
+    if model.maximum_temperature is None and bush in SERVICE_TEMPERATURES:
+        highest, source = SERVICE_TEMPERATURES[bush]
+        found[f"highest temperature of {bush}"] = f"{highest - 273.15:g} degC: {source}"
+    given = model.heat_balance is not None and model.heat_balance.conductance is not None
+    if model.bulk_temperature is None and not given:
+        found["heat conductance"] = (
+            f"{TRANSFER:g} W/(m^2 K) x {AREA_FACTOR:g} d L: lower ends of the usual ranges of DIN 31652, from memory"
+        )
+    return found
 
 
 def sources_of_element(element: Element) -> dict[str, list[str]]:

@@ -206,6 +206,13 @@ BUSH_WEARS_IN_FILM = define(
     "Asperities have {share:.1%} of the load.",
     "Take the specific wear rate of starts and stops, or of a test in this lubricant at this lambda ratio.",
 )
+BUSH_GLYCOL = define(
+    "bush-glycol",
+    CAUTION,
+    "The pressure-viscosity coefficient of water-glycol is 5 1/GPa, not measured.",
+    "4 to 6 1/GPa are usual; the peak pressure raises the viscosity by {change:.1%}.",
+    "Give oil.pressure_viscosity if you know it.",
+)
 BUSH_LEAKS = define(
     "bush-leaks",
     CAUTION,

@@ -33,14 +33,14 @@ def of_curve(speeds: int, points: int, cells: int | None, hertz_pressure: float)
     cells : cells along an axis of a ball's film; None for a cylinder.
     hertz_pressure : highest pressure of the smooth contact [Pa].
     """
-    what = f"for each of {speeds} speeds of a curve, most of them on "
+    what = "for the speed" if speeds == 1 else f"for each of {speeds} speeds of a curve"
     if cells is None:
         seconds = speeds * (0.02 + 1.7e-5 * points) * max(1.0, hertz_pressure / _LIGHT_PRESSURE)
-        return Step("films", f"about 5 {what}a coarser mesh", seconds=seconds, memory=_HELD * points)
+        return Step("films", f"about 5 {what}, most of them on a coarser mesh", seconds=seconds, memory=_HELD * points)
     seconds = speeds * (0.05 + 6e-5 * cells**2)  # measured: 8 speeds on 80 and on 128 cells
     return Step(
         "films",
-        f"about 5 for each of {speeds} speeds of a curve, some of them on fewer cells",
+        f"about 5 {what}, some of them on fewer cells",
         seconds=seconds,
         memory=900.0 * cells**2,
     )

@@ -104,7 +104,8 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         return f"{key}: {REMOVED_KEYS[key]}"
     if kind == "extra_forbidden":
         parent, _, last = key.rpartition(".")
-        names = sorted(_names_at(mistake["loc"][:-1], data, model))
+        names = _names_at(mistake["loc"][:-1], data, model)
+        names = sorted({*names, *(getattr(model, "OTHER_KEYS", ()) if not parent else ())})
         place = f"in {parent}" if parent else "at the top of the scene"
         if (written := _INSTEAD.get(last)) is not None and written[0] in names:
             return f"{key}: unknown key; write {written[1]}"

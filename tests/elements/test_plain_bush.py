@@ -23,6 +23,7 @@ from bem.notes.checks import SLOPES_LARGE
 from bem.notes.elements import (
     BUSH_CONFORMS,
     BUSH_FLOATS,
+    BUSH_GLYCOL,
     BUSH_LEAKS,
     BUSH_LIQUID_LOST,
     BUSH_OVER_LIMIT,
@@ -255,6 +256,11 @@ def test_water_with_glycol_evaporates_before_it_boils():
     (note,) = answer_notes(element, ())
     assert "evaporates" in note
     assert note.values["limit"] == pytest.approx(65)
+    assumed = load_element(WATER | {"oil": without(glycol, "pressure_viscosity")})
+    (note,) = [note for note in assumed.notes() if note.code == BUSH_GLYCOL.code]
+    assert note.values["change"] == pytest.approx(math.expm1(5e-9 * assumed.model.conforming.maximum_pressure))
+    assert assumed.columns()["minimum_film [m]"] == load_element(WATER | {"oil": glycol}).columns()["minimum_film [m]"]
+    assert BUSH_GLYCOL.code not in codes(load_element(WATER).notes())
 
 
 def test_the_bore_stands_for_diameter_or_clearance():
@@ -488,6 +494,9 @@ def test_wear_and_life_in_words():
         ({"wall": None}, "housing without wall"),
         ({"permitted_wear": "2 mm"}, "permitted_wear"),
         ({"pv_limit": "0.2 MPa"}, "pressure times a speed"),
+        ({"specific_wear_rate": 3e-6}, 'a unit beside the number, such as "3e-06 mm'),
+        ({"wal": "2 mm"}, "boundary_friction, bulk_temperature"),
+        ({"wal": "2 mm"}, "bore"),
     ],
 )
 def test_mistakes_are_said_with_what_is_allowed(change, words):
@@ -507,6 +516,11 @@ def test_the_command(tmp_path):
     assert (tmp_path / "all.png").stat().st_size > 1000
     shown = bem("element", "pump.toml", "--contacts").stdout
     assert "4.86" in shown
+    cited = bem("cite", "dry.toml").stdout
+    assert "friction of dry peek: 0.35: between" in cited
+    assert "highest temperature of peek: 250 degC" in cited
+    assert "Michell" in cited
+    assert "M100" not in bem("cite", "pump.toml").stdout
     assert "Hertz" not in shown
     (tmp_path / "cases.csv").write_text("name, radial_load [N], speed [rpm]\nlow, 100, 300\nhigh, 500, 100\n")
     cases = bem("element", "pump.toml", "--cases", "cases.csv").stdout
