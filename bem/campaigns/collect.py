@@ -172,6 +172,14 @@ def _something(value: Any) -> bool:
     return value is not None and bool(np.nan_to_num(np.asarray(value, dtype=np.float64)).any())
 
 
+def _sentence(why: str, names: Sequence[str]) -> str:
+    """Return why figures have no error bar as the beginning of a sentence, in the plural of several."""
+    if len(names) > 1:
+        for one, several in (("it follows", "they follow"), (", or was not", ", or were not")):
+            why = why.replace(one, several)
+    return why[:1].upper() + why[1:]
+
+
 def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[Note]:
     """Return notes on error bars: figures without bars and the reasons, and bars that are scatter alone; none on
     figures that are zero everywhere, as the sizes of no pieces."""
@@ -185,7 +193,7 @@ def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[
     for name, why in _never_barred(campaign).items():
         if name in told and any(_something(getattr(one, name)) for one in records if one is not None):
             reasons.setdefault(why, []).append(told[name])
-    found = [no_error_bar(names, NoBar.OF_KIND, why=why[:1].upper() + why[1:]) for why, names in reasons.items()]
+    found = [no_error_bar(names, NoBar.OF_KIND, why=_sentence(why, names)) for why, names in reasons.items()]
     repeated = next((len(axis) for axis in campaign.axes if axis.name == REPETITION), 1)
     if record.scatters and repeated > 1:
         judged = [told[name] for name in record.scatters if name in told and name in _barred(records)]

@@ -134,7 +134,7 @@ def prepare_first_run(scene: str, settings: Sequence[str], accuracy: str | dict[
     if cold and resolved.kind == "contact":
         compile_with_progress(main=True)
     elif seconds_to_compile(resolved) >= _SAID:
-        typer.echo("bem: compiling loops, once for this installation (`bem warm-up` compiles all of them)", err=True)
+        typer.echo("bem: compiling loops, once for each kind (`bem warm-up` compiles all of them)", err=True)
 
 
 def tell_changed_size(source: str, settings: Sequence[str]) -> None:

@@ -257,14 +257,14 @@ def _read(file: Path, options: _Reading) -> Surface:
         }
         missing = {words: option for words, option in wants.items() if option is not None} or wants
         raise InputError(
-            f"{file.name}: does not say {', or '.join(missing)}; allowed: with {' '.join(map(str, missing.values()))}"
+            f"{file.name}: does not say {', or '.join(missing)}; give {' '.join(map(str, missing.values()))}"
         ) from error
     if sides is not None and options.height_unit is None and not states_scale(file, chosen):
         slope = slope_in_metres(surface)
         if slope is not None:
             raise InputError(
                 f"{file.name}: does not say in which unit its heights are, and in metres they would have an rms slope "
-                f"of {slope:.2g}; allowed: with --height-unit, such as nm or um"
+                f"of {slope:.2g}; give --height-unit, such as nm or um"
             )
     return surface
 

@@ -58,7 +58,8 @@ NO_ERROR_BAR = define(
     reasons={
         NoBar.COARSER_UNSOLVED: "The coarser solution to compare with did not converge.",
         NoBar.TOO_SMALL: "The grid is too small to be compared with one of twice the cell; take more cells.",
-        NoBar.FREE_EDGE: "The contact reaches a free edge of the grid, where bodies end and pressures have no limit.",
+        NoBar.FREE_EDGE: "The contact reaches a free edge of the grid, where bodies end and pressures keep growing on "
+        "finer grids.",
         NoBar.FEW_CELLS_WIDE: (
             "The contact is one or two cells wide, and its figures follow the cells; take a finer grid, of "
             "measured surfaces a finer map."
@@ -66,7 +67,8 @@ NO_ERROR_BAR = define(
         NoBar.IMPOSSIBLE: "What is prescribed cannot be met on the grid of twice the cell.",
         NoBar.NARROW_RING: "The zone that slips is narrower than a cell, and its energy follows the cells; take more.",
         NoBar.SHARP_PRESSURE: (
-            "The contact has sharp edges or ridges, where pressures, and stresses close below them, have no limit."
+            "The contact has sharp edges or ridges, where pressures, and stresses close below them, keep "
+            "growing on finer grids."
         ),
         NoBar.EVEN_CELLS: "Error bars need even numbers of cells, {fewest} at least.",
         NoBar.EVEN_CELLS_OF_LOOP: (
@@ -80,10 +82,11 @@ NO_ERROR_BAR = define(
         ),
         NoBar.ONE_PLACE_AMONG_BUMPS: "They are values at one place among bumps a few cells long.",
         NoBar.STRESS_OF_CAPPED: (
-            "The highest stress lies less than a cell below the surface of a capped contact, where it has no limit."
+            "The highest stress lies less than a cell below the surface of a capped contact; it keeps growing on finer "
+            "grids."
         ),
         NoBar.STRESS_OF_SHARP: (
-            "The highest stress lies less than a cell below sharp edges or ridges, where it has no limit."
+            "The highest stress lies less than a cell below sharp edges or ridges; it keeps growing on finer grids."
         ),
         NoBar.SHALLOWEST_DEPTH: (
             "The highest stress lies at the shallowest depth; begin outputs.depths nearer the surface."

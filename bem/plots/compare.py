@@ -94,6 +94,10 @@ def _ranked(datasets: Sequence[Any]) -> list[str]:
     return [name for _, name in sorted(ranked, key=lambda item: item[0])]
 
 
+_LONGEST_TITLE = 84
+"""Characters of a panel's title, two lines; the rest of a longer text is left out."""
+
+
 def _draw(axes: Any, group: Sequence[Panel], dashes: dict[str, str]) -> None:
     """One variable of all runs; later runs on top and thinner, so that equal ones are both seen."""
     shown = group[0]
@@ -117,7 +121,8 @@ def _draw(axes: Any, group: Sequence[Panel], dashes: dict[str, str]) -> None:
     words = shown.along if len(shown.along) < 40 else textwrap.shorten(shown.along, 40, placeholder=" ...")
     axes.set_xlabel(label(words, x_unit))
     axes.set_ylabel(unit)
-    axes.set_title("\n".join(textwrap.wrap(shown.title, 42)), loc="left")
+    title = textwrap.shorten(shown.title, _LONGEST_TITLE, placeholder=" ...")
+    axes.set_title("\n".join(textwrap.wrap(title, 42)), loc="left")
 
 
 def _legend(figure: Any, labels: Sequence[str], dashes: dict[str, str]) -> None:

@@ -90,7 +90,7 @@ class SpeedsScene(Table):
         if isinstance(data, dict) and isinstance(data.get("values"), str):
             raise problem(
                 f'values = "{data["values"][:60]}" is not a list',
-                'a list such as ["0.1 m/s", "1 m/s"], or first, last and count: speeds in equal ratios, as on a '
+                f'a list, ["{data["values"][:60]}"], or first, last and count: speeds in equal ratios, as on a '
                 "logarithmic axis",
             )
         return {"values": data} if isinstance(data, list | tuple) else data

@@ -241,19 +241,18 @@ def _scale_of(body: str, path: str, scale: MapScale) -> MapScale | None:
     if scale.spacing is None and scale.height_unit is None:
         raise InputError(
             f"--{body}: {name} does not say how far its points are apart, nor in which unit its heights are; "
-            'allowed: with --spacing and --height-unit, such as --spacing "0.5 um" --height-unit nm'
+            'give --spacing and --height-unit, such as --spacing "0.5 um" --height-unit nm'
         )
     if scale.spacing is None:
         raise InputError(
-            f"--{body}: {name} does not say how far its points are apart; allowed: with --spacing, such as "
-            '--spacing "0.5 um"'
+            f'--{body}: {name} does not say how far its points are apart; give --spacing, such as --spacing "0.5 um"'
         )
     if scale.height_unit is None:
         slope = slope_in_metres(read_surface(path, spacing=scale.spacing))
         if slope is not None:
             raise InputError(
                 f"--{body}: {name} does not say in which unit its heights are, and in metres they would have an rms "
-                f"slope of {slope:.2g}; allowed: with --height-unit, such as nm or um"
+                f"slope of {slope:.2g}; give --height-unit, such as nm or um"
             )
     return scale
 

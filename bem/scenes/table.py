@@ -48,7 +48,11 @@ def exactly_one(table: BaseModel, *names: str) -> None:
     given = [name for name in names if getattr(table, name) is not None]
     if len(given) != 1:
         found = "none is given" if not given else f"{' and '.join(given)} are given"
-        raise problem(found, f"exactly one of {', '.join(names)}")
+        raise PydanticCustomError(
+            "scene",
+            "{problem}; allowed: {allowed}",
+            {"problem": found, "allowed": f"exactly one of {', '.join(names)}", "given": given},
+        )
 
 
 def check_rising(values: Sequence[float], what: str) -> None:

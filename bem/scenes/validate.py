@@ -134,7 +134,9 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
     if kind == "quantity":
         return f"{where}: {mistake['msg']}"
     if kind == "scene":
-        return f"{key or 'scene'}{_scalar(value)}: {mistake['msg']}"
+        out = [f"--set {key + '.' if key else ''}{name}=" for name in context.get("given", ())]
+        take = f"; take the other out with {' or '.join(out)}" if out else ""
+        return f"{key or 'scene'}{_scalar(value)}: {mistake['msg']}{take}"
     if kind in ("too_long", "too_short") and "actual_length" in context:
         most, least = context.get("max_length"), context.get("min_length")
         many = f"{least} or more" if most is None else f"{most} or fewer"

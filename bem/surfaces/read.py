@@ -461,11 +461,11 @@ def _is_heading(line: str) -> bool:
 def _read_table(file: Path) -> tuple[FloatArray, list[str]]:
     """A table of numbers, a row a line, and the lines of words above it; memory beyond the numbers is that of one block
     of a line."""
-    values, rows, width, separator, line = array("d"), 0, None, None, ""
+    values, rows, width, separator, line, number = array("d"), 0, None, None, "", 0
     header: list[str] = []
     try:
         with file.open(encoding="utf-8-sig", errors="surrogateescape") as stream:
-            for line in stream:
+            for number, line in enumerate(stream, 1):
                 comment = line.lstrip().startswith(("#", "%"))
                 heads = width is None and len(header) < _MOST_HEADINGS
                 if heads and (comment or (_is_heading(line) and not _has_decimal_commas(line))):
@@ -483,7 +483,8 @@ def _read_table(file: Path) -> tuple[FloatArray, list[str]]:
                 rows, count = rows + 1, len(values) - before
                 if width is not None and count != width:
                     raise SurfaceFileError(
-                        f"{file}: its lines do not all hold the same number of values; the file is damaged"
+                        f"{file}: line {number} has {count} values and those before it {width}: not all lines have the "
+                        "same number of values; write nan for missing points"
                     )
                 width = count
     except SurfaceFileError:
@@ -491,8 +492,13 @@ def _read_table(file: Path) -> tuple[FloatArray, list[str]]:
     except (OSError, ValueError) as problem:
         if isinstance(problem, ValueError) and _has_decimal_commas(line):
             raise SurfaceFileError(
-                f"{file}: its numbers have decimal commas; write decimal points, with columns parted by spaces, tabs "
-                "or semicolons"
+                f"{file}: its numbers have decimal commas; write decimal points, with columns separated by spaces, "
+                "tabs or semicolons"
+            ) from problem
+        if isinstance(problem, ValueError) and width is not None and "could not convert" in str(problem):
+            word = str(problem).rpartition(":")[2].strip()
+            raise SurfaceFileError(
+                f"{file}: line {number}: {word[:40]} is no number; write nan for missing points"
             ) from problem
         raise _unreadable(file, problem) from problem
     if width is None:
@@ -501,7 +507,7 @@ def _read_table(file: Path) -> tuple[FloatArray, list[str]]:
 
 
 def _has_decimal_commas(line: str) -> bool:
-    """Return True if the words of a line, parted by spaces, tabs or semicolons, are numbers with decimal commas."""
+    """Return True if the words of a line, separated by spaces, tabs or semicolons, are numbers with decimal commas."""
     words = re.split(r"[\s;]+", line[:_HEAD].strip(" \t\r\n;"))
     words = words[:-1] if len(line) > _HEAD else words  # may be cut
     return any("," in word for word in words) and all(

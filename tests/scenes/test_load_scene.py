@@ -84,7 +84,7 @@ def test_the_plain_scene_is_good():
         (changed(grid__periodic="yes"), ["grid.periodic"]),
         (changed(contact__approach="1 nm"), ["contact", "mean_pressure and approach", "exactly one of"]),
         (changed(contact=5), ["contact = 5", "not a table"]),
-        (changed(contact__behaviour="capped", contact__mean_pressure="3 GPa"), ["contact.mean_pressure", "beyond hardness x area"]),  # noqa: E501
+        (changed(contact__behaviour="capped", contact__mean_pressure="3 GPa"), ["contact.mean_pressure", "3 GPa is beyond the hardness"]),  # noqa: E501
         (changed(contact__hardness="1 GPa"), ["contact", "hardness is given but behaviour is elastic"]),
         (changed(shape={"kind": "sphere"}), ["shape", "radius"]),
         (changed(outputs__depths=["2 um", "1 um"]), ["outputs.depths", "rising"]),

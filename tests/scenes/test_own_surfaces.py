@@ -146,9 +146,9 @@ def test_files_of_plain_numbers_take_spacing_and_unit(ending, tmp_path):
     scene = tmp_path / "mine.toml"
     given = ["new", "contact", str(scene), "--lower", str(path)]
     for options, missing in (
-        ([], 'with --spacing and --height-unit, such as --spacing "0.5 um"'),
-        (["--spacing", "0.5 um"], "with --height-unit, such as nm"),
-        (["--height-unit", "nm"], 'apart; allowed: with --spacing, such as --spacing "0.5 um"'),
+        ([], 'give --spacing and --height-unit, such as --spacing "0.5 um"'),
+        (["--spacing", "0.5 um"], "give --height-unit, such as nm"),
+        (["--height-unit", "nm"], 'apart; give --spacing, such as --spacing "0.5 um"'),
         (["--spacing", "1", "--height-unit", "nm"], "a number alone is in metres); allowed: up to 1 mm, with its unit"),
         (["--spacing", "0.5 um", "--height-unit", "yards"], '--height-unit "yards": allowed: m,'),
     ):

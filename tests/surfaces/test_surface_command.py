@@ -145,8 +145,8 @@ def table(tmp_path):
     [
         (("--spacing", "1 um"), "in metres they would have an rms slope of"),
         (("--spacing", "1"), "a number alone is in metres"),
-        (("--height-unit", "nm"), 'how far its points are apart; allowed: with --spacing "0.5 um"'),
-        ((), 'with --spacing "0.5 um" --height-unit nm'),
+        (("--height-unit", "nm"), 'how far its points are apart; give --spacing "0.5 um"'),
+        ((), 'give --spacing "0.5 um" --height-unit nm'),
     ],
 )
 def test_a_table_without_its_scale_is_refused_by_every_command(call, table, options, message):

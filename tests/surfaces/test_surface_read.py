@@ -307,3 +307,13 @@ def test_a_list_of_points_is_not_taken_for_a_map_three_points_wide(tmp_path):
     narrow = np.random.default_rng(0).normal(size=(12, 3))
     np.savetxt(file, narrow)
     assert read_surface(file, spacing=(1e-6, 1e-6), height_unit="nm").heights.shape == (12, 3)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [("1 2 3 4\n4 -- 6 5\n", "line 2: '--' is no number"), ("1 2 3 4\n4 6 5\n", "line 2 has 3 values")],
+)
+def test_a_text_with_a_gap_says_the_line_and_what_stands_for_it(tmp_path, text, told):
+    (tmp_path / "a.txt").write_text(text + "1 2 3 4\n" * 3)
+    with pytest.raises(SurfaceFileError, match=f"{told}.*write nan for missing points"):
+        read_surface(tmp_path / "a.txt", spacing=(1e-6, 1e-6), height_unit="nm")

@@ -69,7 +69,7 @@ def _edges_of(area: Any, counted: float) -> str:
     """Return the shares of the legend, and the headline's area where that is another."""
     if not isinstance(area, float) or f"{area:.3%}" == f"{counted:.3%}":
         return "share of the cells"
-    return f"share of the cells; contact area as drawn through them: {area:.3%}"
+    return f"share of whole cells; contact area with its edges between cells: {area:.3%}"
 
 
 def _section(run: Any, figure: Figure) -> None:
@@ -149,7 +149,14 @@ def _area_over_load(run: Any, figure: Figure) -> None:
     persson = [math.erf(math.sqrt(2.0) * value) for value in reach]
     axes.loglog(reach, persson, color=BLACK, label="Persson: erf(√2 p / (E* h′))")
     bush = math.sqrt(2 * math.pi) * reach
-    axes.loglog(reach[bush < 1], bush[bush < 1], "--", color="0.5", label="Bush, Gibson, Thomas: √(2π) p / (E* h′)")
+    axes.loglog(
+        reach[bush < 1],
+        bush[bush < 1],
+        "--",
+        color="0.5",
+        linewidth=2.2,
+        label="Bush, Gibson, Thomas: √(2π) p / (E* h′)",
+    )
     _plastic_limits(run, axes, reach, pressure, known)
     error = (
         np.ravel(_array(run, "contact_area_fraction_error")) if "contact_area_fraction_error" in run.dataset else None
@@ -185,7 +192,14 @@ def _plastic_limits(run: Any, axes: Any, reach: Any, pressure: Any, known: Any) 
         return
     if np.ptp(index[known]) <= _SAME_LIMIT * float(index[known].max()):
         limit = float(index[known].mean()) * reach
-        axes.loglog(reach[limit <= 1], limit[limit <= 1], ":", color=VERMILION, label="plastic limit: load / hardness")
+        axes.loglog(
+            reach[limit <= 1],
+            limit[limit <= 1],
+            ":",
+            color=VERMILION,
+            linewidth=1.2,
+            label="plastic limit: load / hardness",
+        )
     else:
         limits = np.minimum(index[known] * pressure[known], 1.0)
         axes.plot(pressure[known], limits, "x", color=VERMILION, label="plastic limit: load / hardness")

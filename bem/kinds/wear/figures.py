@@ -272,7 +272,7 @@ FIGURES = (
     ),
     FigureKind(
         "worn-surface",
-        "The worn surface before and after, in one colour scale (last run).",
+        "The worn surface before and after, in one colour scale; of several runs the last.",
         ("x", "y", "height_before", "height_after"),
         _worn_surface,
         (7.6, 3.4),

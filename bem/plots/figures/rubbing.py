@@ -45,7 +45,8 @@ def _slip_and_wear(run: Any, figure: Figure) -> None:
 FIGURES = (
     FigureKind(
         "slip-and-wear",
-        "What the surfaces slide against each other in a loop of the last cycle, and the depth worn (last run).",
+        "What the surfaces slide against each other in a loop of the last cycle, and the depth worn; of several runs "
+        "the last.",
         ("x", "y", "slid", "pressure", "traction_x", "height_before", "height_after"),
         _slip_and_wear,
         (7.8, 3.4),

@@ -200,7 +200,8 @@ _PLASTIC = 0.8
 
 
 def at_the_cap(facts: Facts, outcome: Outcome) -> tuple[str, float, float]:
-    """Return the share of contact cells at the hardness in words, the hardness [Pa], and their share of the load.
+    """Return the share of the contact area, or of the cells, at the hardness in words, the hardness [Pa], and their
+    share of the load.
 
     Nothing below a tenth of the cells.
     """
@@ -212,9 +213,17 @@ def at_the_cap(facts: Facts, outcome: Outcome) -> tuple[str, float, float]:
         touching, capped = np.count_nonzero(plane > 0), plane >= case.cap * (1 - 1e-9)
         if touching and np.count_nonzero(capped) > _AT_CAP * touching:
             share = float(plane[capped].sum() / plane.sum())
-            cells = f"{percent(np.count_nonzero(capped) / touching)} of the cells in contact"
+            cells = _of_area(outcome) or f"{percent(np.count_nonzero(capped) / touching)} of the cells in contact"
             return f"{cells}, which carry {percent(share)} of the load,", case.cap, share
     return "", 0.0, 0.0
+
+
+def _of_area(outcome: Outcome) -> str:
+    """Return the part of the contact area at the hardness, as the figures of a single case have it; "" of others."""
+    area, plastic = (numbers(outcome.summary.get(f"{name}_area_fraction")) for name in ("contact", "plastic"))
+    if len(area) != 1 or len(plastic) != 1 or not 0 < plastic[0] <= area[0]:
+        return ""
+    return f"{percent(plastic[0] / area[0])} of the contact area"
 
 
 @outcome_check

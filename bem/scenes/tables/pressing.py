@@ -112,9 +112,13 @@ class ContactControl(Table):
         """
         load, hardness = self.load_on(area), self.hardness
         if load is not None and hardness is not None and load > hardness * area:
-            key, value = ("load", f"{load:g} N") if self.load else ("mean_pressure", f"{load / area:g} Pa")
+            if not self.load:
+                raise InfeasibleError(
+                    f"contact.mean_pressure: {si(load / area, 'Pa')} is beyond the hardness, {si(hardness, 'Pa')}; "
+                    "allowed: less, or a higher hardness"
+                )
             raise InfeasibleError(
-                f"contact.{key} = {value}: beyond hardness x area = {hardness:g} Pa x {area:g} m^2 = "
+                f"contact.load = {load:g} N: beyond hardness x area = {hardness:g} Pa x {area:g} m^2 = "
                 f"{hardness * area:g} N; allowed: a smaller load, a larger grid or a higher hardness"
             )
 
