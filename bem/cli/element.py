@@ -59,7 +59,7 @@ def element(
     cases: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Rows of keys to change, .csv with units: a line for each.")
     ] = None,
-    remarks: Annotated[bool, typer.Option("--remarks", help="Show the whole text of remarks, too.")] = False,
+    remarks: Annotated[bool, typer.Option("--remarks", help="Show the whole text of cautions and remarks.")] = False,
 ) -> None:
     """Answer for a machine element on one screen: critical contact, lambda ratio, friction power, temperatures, and
     safety: rating life of bearings, scuffing and micropitting of gears, p v and wear life of bushes. Films are solved
@@ -76,7 +76,7 @@ def element(
       bem element bearing.toml --cases loads.csv --table worst.csv
     """
     from bem.cli._quantity import new_file
-    from bem.cli._terminal import print_text, print_written, show_remarks, show_warnings
+    from bem.cli._terminal import print_text, print_written, show_warnings
     from bem.elements.answer import answer_notes, balance_heat, contact_words, place_words, table_columns
     from bem.elements.element import LIFE, MIXED, load_element
     from bem.elements.figure import draw_element
@@ -137,9 +137,11 @@ def element(
     notes: Sequence[Note] = [*found.notes(), *answer_notes(found, runs), *notes_of(runs)]
     if made is not None and not runs and kind in (*MIXED, LIFE):
         notes = [note for note in notes if note.code != SURFACES_TOUCH.code]
-    show_warnings(notes, remarks="--remarks shows them")
     if remarks:
-        show_remarks(notes)
+        for note in notes:
+            print_text(f"  {note}")
+    else:
+        show_warnings(notes, remarks="--remarks shows them")
     if path is not None and rows is not None:
         write_text(path, rows)
         print_written(path)

@@ -977,8 +977,8 @@ def test_the_overview_shows_what_is_pressed_together():
     shown = dict(common(facts))
     assert shown["cells"] == "32 x 32"
     assert shown["edges"] == "free"
-    assert shown["Hertz radius"] == "108 um"
-    assert shown["Hertz pressure"] == "781 MPa"
+    assert shown["Hertz radius without layers"] == "108 um"
+    assert shown["Hertz pressure without layers"] == "781 MPa"
     assert "20 um of dlc" in dict(bodies(facts))["lower"]
     assert differing(facts) == ([], [])
     names, rows = differing(facts_of("wear-steel-steel"))

@@ -136,9 +136,11 @@ def _column(case: Case) -> dict[str, str]:
     if smooth is not None:
         name = "half-width" if smooth.line else "semi-axes" if len(set(smooth.semi_axes)) > 1 else "radius"
         sizes = tuple(a for a in smooth.semi_axes if math.isfinite(a))
-        found[f"Hertz {name}"] = " x ".join(si(a, "m") for a in dict.fromkeys(sizes))
-        found["Hertz pressure"] = si(smooth.maximum_pressure, "Pa")
-        found["Hertz approach"] = "" if smooth.approach is None else si(smooth.approach, "m")
+        layered = any(body is not None and body.layers for body in (case.lower, case.upper))
+        without = " without layers" if layered else ""
+        found[f"Hertz {name}{without}"] = " x ".join(si(a, "m") for a in dict.fromkeys(sizes))
+        found[f"Hertz pressure{without}"] = si(smooth.maximum_pressure, "Pa")
+        found[f"Hertz approach{without}"] = "" if smooth.approach is None else si(smooth.approach, "m")
         if grid is not None:
             across = [2 * a / d for a, d in zip(smooth.semi_axes, grid.spacing, strict=True) if math.isfinite(a)]
             found["cells across it"] = f"{min(across):.3g}"
