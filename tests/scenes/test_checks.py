@@ -1096,3 +1096,12 @@ def test_steps_of_wear_in_oil_may_take_off_twice_what_bodies_give_way_by():
         law = {"kind": "archard", "specific_wear_rate": 1e-16, "distance": distance}
         facts = facts_of(library()["running-in-stribeck"] | {"wear": {"criterion": law}})
         assert len(list(check(facts, worn))) == told
+
+
+@pytest.mark.internal
+def test_the_plastic_part_in_words_is_that_of_the_table():
+    """The area at the hardness with its edges between cells, not the number of its cells."""
+    pressure, areas = spot(7e9), {"contact_area_fraction": 0.02, "plastic_area_fraction": 0.012}
+    facts = facts_of(with_(BALL, contact__behaviour="capped", contact__hardness="7 GPa"))
+    (told,) = OUTCOME_CHECKS["contact_at_the_cap"](facts, contact_outcome(pressure, **areas))
+    assert told.startswith("Pressures are limited by the hardness that was given. Cells on 60 % of the contact area")

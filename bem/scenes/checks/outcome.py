@@ -223,7 +223,7 @@ def _of_area(outcome: Outcome) -> str:
     area, plastic = (numbers(outcome.summary.get(f"{name}_area_fraction")) for name in ("contact", "plastic"))
     if len(area) != 1 or len(plastic) != 1 or not 0 < plastic[0] <= area[0]:
         return ""
-    return f"{percent(plastic[0] / area[0])} of the contact area"
+    return f"Cells on {percent(plastic[0] / area[0])} of the contact area"
 
 
 @outcome_check
