@@ -20,7 +20,8 @@ of bush and shaft by Navier's equations along the radius; and by gates against c
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,9 +66,10 @@ class ConformingBodies:
     clearance: float
     wall: float | None = None
     housing: Material | None = None
+    _most_clearance: ClassVar[float] = 0.1
 
     def __post_init__(self) -> None:
-        if not 0 < self.clearance < 0.1 * self.radius:
+        if not 0 < self.clearance < self._most_clearance * self.radius:
             raise InputError(
                 f"clearance {self.clearance:g} m of a bush of radius {self.radius:g} m; allowed: positive, and below a "
                 "tenth of the radius"
@@ -88,12 +90,19 @@ class ConformingBodies:
         the effect of conformity falls with the square of the angle.
         """
         radius = _LARGER * self.radius
-        return replace(self, radius=radius, clearance=radius**2 / self.equivalent_radius)
+        clearance = radius**2 / self.equivalent_radius
+        return _CylinderOnFlat(self.shaft, self.bush, radius, clearance, self.wall, self.housing)
 
     @property
     def modulus(self) -> float:
         """Contact modulus of shaft and bush [Pa]."""
         return contact_modulus(self.shaft, self.bush)
+
+
+class _CylinderOnFlat(ConformingBodies):
+    """Bodies of any clearance, of which only the gap near the load line counts."""
+
+    _most_clearance = math.inf
 
 
 @dataclass(frozen=True)

@@ -202,6 +202,15 @@ def test_the_equivalent_cylinder_is_that_of_hertz():
     assert conforming_contact(bodies, 8e3).maximum_pressure == pytest.approx(hertz.maximum_pressure, rel=5e-3)
 
 
+@pytest.mark.parametrize("relative", [0.015, 0.09])
+def test_wide_clearances_have_an_equivalent_cylinder(relative):
+    bodies = ConformingBodies(STEEL, PEEK, RADIUS, relative * RADIUS)
+    hertz = cylinder_contact(radius=bodies.equivalent_radius, contact_modulus=bodies.modulus, load=50e3)
+    found = conforming_contact(bodies.cylinder, 50e3)
+    assert found.maximum_pressure == pytest.approx(hertz.maximum_pressure, rel=5e-3)
+    assert found.half_angle * bodies.cylinder.radius == pytest.approx(hertz.half_width, rel=5e-3)
+
+
 def test_a_layer_of_the_substrate_s_material_has_the_modulus_of_half_spaces():
     """By Hertz; a soft layer is between its material and the substrate, the stiffer the thinner it is."""
     given = {"radius": 5.2, "load": 40e3}

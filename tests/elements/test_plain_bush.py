@@ -263,6 +263,14 @@ def test_water_with_glycol_evaporates_before_it_boils():
     assert BUSH_GLYCOL.code not in codes(load_element(WATER).notes())
 
 
+@pytest.mark.parametrize("clearance", ["0.3 mm", "1.8 mm"])
+def test_a_wide_clearance_is_answered(clearance):
+    """Shaft and bush are a cylinder on a flat but for half of the relative clearance: one radius stands for both."""
+    model = load_element(DRY | {"clearance": clearance}).model
+    bound = 0.5 * model.radial_clearance / model.bodies.radius + 0.01
+    assert all(abs(deviation) < bound for deviation in model.cylinder_deviation())
+
+
 def test_the_bore_stands_for_diameter_or_clearance():
     usual = load_element(DRY).model
     for change in ({"clearance": None}, {"shaft_diameter": None}):
