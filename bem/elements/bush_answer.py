@@ -13,6 +13,7 @@ from bem.elements.plain_bush import (
     WORN_IN,
     PlainBushModel,
     sliding_to_depth,
+    worn_out_depth,
 )
 from bem.notes import Note
 from bem.notes.elements import (
@@ -271,14 +272,14 @@ def _wear(model: PlainBushModel, film: FilmOfBush | None) -> str:
 
 
 def wear_life(model: PlainBushModel) -> tuple[float, float]:
-    """Return sliding distance [m] and hours to the permitted depth of wear; without one to the clearance."""
-    distance = sliding_to_depth(model, model.permitted_wear or 2 * model.radial_clearance)
+    """Return sliding distance [m] and hours to the depth at which the bush is worn out."""
+    distance = sliding_to_depth(model, worn_out_depth(model)[0])
     return distance, distance / model.sliding_speed / _HOUR
 
 
 def _life(model: PlainBushModel) -> str:
-    depth = model.permitted_wear or 2 * model.radial_clearance
-    assumed = "" if model.permitted_wear else " (the clearance; give permitted_wear)"
+    depth, name = worn_out_depth(model)
+    assumed = "" if name == "permitted_wear" else f" (the {name}; give permitted_wear)"
     distance, lasts = wear_life(model)
     angle = max(
         math.degrees(math.acos(model.radial_clearance / (model.radial_clearance + depth))),

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bem.elements.element import Element
-from bem.elements.plain_bush import PlainBushModel, sliding_to_depth
+from bem.elements.plain_bush import PlainBushModel, sliding_to_depth, worn_out_depth
 from bem.elements.running import Running
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def _bush(element: Element, model: PlainBushModel, figure: Figure) -> Figure:
     panels[0].set_ylim(bottom=0)
     panels[0].legend(frameon=False, fontsize="small")
     if worn:
-        depth = np.linspace(0.0, model.permitted_wear or 2 * model.radial_clearance, 61)
+        depth = np.linspace(0.0, worn_out_depth(model)[0], 61)
         hours = np.array([sliding_to_depth(model, one) for one in depth]) / (3600 * model.sliding_speed)
         panels[1].plot(hours, 1e6 * depth, color="C0")
         panels[1].set_xlabel("time (h)")

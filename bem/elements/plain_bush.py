@@ -316,6 +316,15 @@ def crescent_distance(depth: float, *, radius: float, clearance: float) -> float
     return radius * ((clearance + depth) * angle - clearance * math.sin(angle))
 
 
+def worn_out_depth(model: PlainBushModel) -> tuple[float, str]:
+    """Return the depth [m] at which a bush is worn out, and its name: permitted, the clearance, or a thinner wall."""
+    if model.permitted_wear is not None:
+        return model.permitted_wear, "permitted_wear"
+    if model.wall is not None and model.wall < model.clearance:
+        return model.wall, "wall"
+    return model.clearance, "clearance"
+
+
 def sliding_to_depth(model: PlainBushModel, depth: float) -> float:
     """Return the sliding distance to a worn depth at the load line [m], an estimate on the safe side.
 

@@ -267,8 +267,18 @@ def test_water_with_glycol_evaporates_before_it_boils():
 def test_a_wide_clearance_is_answered(clearance):
     """Shaft and bush are a cylinder on a flat but for half of the relative clearance: one radius stands for both."""
     model = load_element(DRY | {"clearance": clearance}).model
-    bound = 0.5 * model.radial_clearance / model.bodies.radius + 0.01
+    bound = 0.5 * model.radial_clearance / model.bodies.radius + 0.02
     assert all(abs(deviation) < bound for deviation in model.cylinder_deviation())
+
+
+@pytest.mark.parametrize(("wall", "depth", "name"), [("0.4 mm", 0.4e-3, "wall"), ("2 mm", 0.6e-3, "clearance")])
+def test_without_permitted_wear_a_bush_lasts_until_its_clearance_or_wall_is_gone(wall, depth, name):
+    table = without(WORN, "permitted_wear") | {"clearance": "0.6 mm", "wall": wall}
+    model = load_element(table).model
+    life = dict(answer(load_element(table), ()))["wear life"]
+    hours = sliding_to_depth(model, depth) / model.sliding_speed / 3600
+    assert f"to a depth of {1e6 * depth:.3g} um (the {name}; give permitted_wear)" in life
+    assert float(life.split(" h ")[0]) == pytest.approx(hours, rel=1e-2)
 
 
 def test_the_bore_stands_for_diameter_or_clearance():
