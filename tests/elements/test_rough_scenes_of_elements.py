@@ -99,6 +99,8 @@ def reduced(made, kind):
         made["thermal"] = "off"
     if kind == "friction":
         made |= {"film": {"points": 200}, "outputs": {"errors": False}}
+    if kind == "running-in-life":
+        made["life"]["count"] = 1000
     if kind == "running-in":
         made["cycles"] = {"count": 2, "averaged": 1, "settled": 1}
         made["depths"]["count"] = 6
@@ -119,6 +121,11 @@ def test_a_rough_scene_of_a_gear_pair_runs(kind, tmp_path):
         assert done["load_N"] == pytest.approx(place.load / place.length * length)
         return
     # lambda 0.35: the surfaces carry much, friction lies below theirs
+    if kind == "running-in-life":
+        assert 0.02 < done["friction_initial"] < BOUNDARY_FRICTION
+        assert 0.2 < done["contact_share_initial"] < 1
+        assert done["lower_worn_depth_nm"] > 0
+        return
     friction, contact = (
         (done["friction"][0], done["contact_load_N"][0])
         if kind == "friction"
