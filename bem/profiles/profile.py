@@ -25,6 +25,10 @@ from bem.grid import FloatArray
 
 FEWEST_POINTS = 8
 """Fewest points of a profile: a spline of fewer has no curvature to speak of."""
+SHORTEST, LONGEST = 5e-3, 1.0
+"""Lengths of the profiles that files hold [m]: from a disc of a test rig to a whole rail; other units are beyond."""
+_FAR = 5.0
+"""Distance of a first line of numbers over the largest other step, from which it is no point if it is the count."""
 _NEWTON_STEPS = 8
 """Newton steps of an inversion, from a linear interpolation between the points: quadratic, so that five are enough."""
 
@@ -148,8 +152,8 @@ def _longest_rise(rises: NDArray[np.bool_]) -> tuple[int, int]:
 def read_profile(path: str | os.PathLike[str], *, vertical: str = "down", smoothing: float = 0.0) -> Profile:
     """Read a profile file: two columns, y to the right and z, in mm, along the curve; other lines are left out.
 
-    Columns are separated by blanks, commas or semicolons. Lines that do not begin with two numbers are headers or
-    comments.
+    Columns are separated by blanks, commas or semicolons; beside blanks or semicolons, commas may be decimal ones.
+    Lines that do not begin with two numbers are headers or comments.
 
     Parameters
     ----------
@@ -159,7 +163,8 @@ def read_profile(path: str | os.PathLike[str], *, vertical: str = "down", smooth
 
     Raises
     ------
-    InputError : a file that cannot be read or holds no profile, or a `vertical` of another name.
+    InputError : a file that cannot be read or holds no profile, further columns, a length that is none of a profile in
+        mm, or a `vertical` of another name.
     """
     name = os.fspath(path)
     if vertical not in ("down", "up"):
@@ -168,25 +173,68 @@ def read_profile(path: str | os.PathLike[str], *, vertical: str = "down", smooth
         text = read_small(name).decode("utf-8-sig", errors="replace")
     except OSError as error:
         raise InputError(f"{name}: cannot be read ({error.strerror or error}); allowed: a profile file") from None
-    points = [found for line in text.splitlines() if (found := _numbers(line)) is not None]
+    y, z = 1e-3 * _points(name, text).T
+    distinct = np.concatenate([[True], (np.diff(y) != 0) | (np.diff(z) != 0)])
+    sign = 1.0 if vertical == "down" else -1.0
+    try:
+        profile = Profile.through(y[distinct], sign * z[distinct], smoothing=smoothing)
+    except InputError as error:
+        raise InputError([f"{name}: {message}" for message in error.messages]) from None
+    length = float(profile.knots[-1])
+    if not SHORTEST <= length <= LONGEST:
+        raise InputError(
+            f"{name}: a profile {1e3 * length:.3g} mm long; allowed: {1e3 * SHORTEST:g} to {1e3 * LONGEST:g} mm, "
+            "with y and z in mm"
+        )
+    return profile
+
+
+def _numbers(line: str) -> list[float]:
+    """Return the numbers that a line begins with.
+
+    A comma is a decimal one beside semicolons, or where blanks part two words that have one; else it separates columns.
+    """
+    if ";" in line:
+        words = [word.strip() for word in line.replace(",", ".").split(";")]
+        words = [part for word in words for part in word.split()]
+    else:
+        words = line.split()
+        inner = [("," in word.strip(",")) for word in words[:2]]
+        words = line.replace(",", "." if len(inner) == 2 and all(inner) else " ").split()
+    found: list[float] = []
+    for word in words:
+        try:
+            found.append(float(word))
+        except ValueError:
+            break
+    return found
+
+
+def _points(name: str, text: str) -> FloatArray:
+    """Return the points of a profile file, (n, 2) [mm], in the order of the lines.
+
+    Raises
+    ------
+    InputError : lines of more than two numbers, too few points, or a first line that is a count of points.
+    """
+    points = []
+    for count, line in enumerate(text.splitlines(), 1):
+        numbers = _numbers(line)
+        if len(numbers) > 2:
+            raise InputError(
+                f"{name}: line {count} has {len(numbers)} numbers; allowed: two columns, y and z in mm, without others"
+            )
+        if len(numbers) == 2:
+            points.append(numbers)
     if len(points) < FEWEST_POINTS:
         raise InputError(
             f"{name}: {len(points)} lines begin with two numbers; allowed: {FEWEST_POINTS} or more points of a "
             "profile, y and z in mm"
         )
-    y, z = 1e-3 * np.array(points).T
-    distinct = np.concatenate([[True], (np.diff(y) != 0) | (np.diff(z) != 0)])
-    sign = 1.0 if vertical == "down" else -1.0
-    try:
-        return Profile.through(y[distinct], sign * z[distinct], smoothing=smoothing)
-    except InputError as error:
-        raise InputError([f"{name}: {message}" for message in error.messages]) from None
-
-
-def _numbers(line: str) -> tuple[float, float] | None:
-    """Return the two numbers that a line begins with, None where it begins otherwise."""
-    parts = line.replace(",", " ").replace(";", " ").split()
-    try:
-        return float(parts[0]), float(parts[1])
-    except (IndexError, ValueError):
-        return None
+    found = np.array(points)
+    steps = np.hypot(*np.diff(found, axis=0).T)
+    if found[0, 0] == len(found) - 1 and steps[0] > _FAR * steps[1:].max():
+        raise InputError(
+            f"{name}: the first line of numbers counts the {len(found) - 1} points after it; allowed: points alone"
+        )
+    return found

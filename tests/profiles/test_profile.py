@@ -73,9 +73,40 @@ def test_files_have_headers_separators_and_either_direction(tmp_path):
     assert np.allclose(up.at(up.knots), (y, z), atol=1e-12)
 
 
+@pytest.mark.parametrize("line", ["{};{}\n", "{} ; {};\n", "{}\t{}\n", "{} {} a word\n"])
+def test_decimal_commas_are_read_beside_semicolons_and_blanks(tmp_path, line):
+    y, z = arc(12)
+    rows = [line.format(f"{1e3 * a:.9f}", f"{1e3 * b:.9f}") for a, b in zip(y, z, strict=True)]
+    (tmp_path / "comma.txt").write_text("y (mm);z (mm)\n" + "".join(rows).replace(".", ","))
+    found = read_profile(tmp_path / "comma.txt")
+    assert np.allclose(found.at(found.knots), (y, z), atol=1e-12)
+
+
+@pytest.mark.parametrize("line", ["{},{}\n", "{}, {}\n", "{} ,{}\n", "{},{} mm\n"])
+def test_commas_separate_columns_otherwise(tmp_path, line):
+    y = np.arange(-30, 31, 5)
+    (tmp_path / "whole.txt").write_text("".join(line.format(a, a * a // 25) for a in y))
+    found = read_profile(tmp_path / "whole.txt")
+    assert np.allclose(found.at(found.knots), (1e-3 * y, 1e-3 * (y * y // 25)), atol=1e-12)
+
+
+def test_a_first_point_beside_the_others_is_no_count(tmp_path):
+    (tmp_path / "p.txt").write_text("".join(f"{12 - i} {i * i}\n" for i in range(13)))
+    assert len(read_profile(tmp_path / "p.txt").knots) == 13
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
-    [("1 2\n3 4\n", "begin with two numbers"), ("1 2\n" * 9, "points"), ("x\n" * 20, "begin with two numbers")],
+    [
+        ("1 2\n3 4\n", "begin with two numbers"),
+        ("1 2\n" * 9, "points"),
+        ("x\n" * 20, "begin with two numbers"),
+        ("".join(f"{i + 1} {i}.5 {0.1 * i}\n" for i in range(12)), "line 1 has 3 numbers"),
+        ("y;z\n" + "".join(f"{i},5;{i},25;0,1\n" for i in range(12)), "line 2 has 3 numbers"),
+        ("12 2\n" + "".join(f"{i - 6} {0.1 * i}\n" for i in range(12)), "counts the 12 points"),
+        ("".join(f"{1e-3 * i} {1e-4 * i}\n" for i in range(60)), "0.0593 mm long"),
+        ("".join(f"{1e3 * i} {i}\n" for i in range(60)), "long; allowed: 5 to 1000 mm"),
+    ],
 )
 def test_files_that_are_none_are_refused(tmp_path, text, message):
     (tmp_path / "p.txt").write_text(text)
