@@ -115,11 +115,14 @@ def tell_profiles(scene: Any, grid: Grid, contact: ContactSolution, context: Con
     if not covered(placed, first, _rows(scene, placed, grid.y[[low, high]])).all():
         tell(context, [PROFILE_ENDS()])
         return
-    turned = _turn_across(placed, first, grid.y[[columns[0], columns[-1]]])
+    edges = grid.y[[columns[0], columns[-1]]]
     if scene.shape.conforming:
+        turned = float(abs(np.diff(_rows(scene, placed, edges).angle)[0]))
         if turned > TURNED:
             tell(context, [CONTACT_BENT(angle=math.degrees(turned), reason="turned")])
-    elif turned > INCLINED:
+        return
+    turned = _turn_across(placed, first, edges)
+    if turned > INCLINED:
         tell(context, [CONTACT_BENT(angle=math.degrees(turned), reason="bent")])
 
 

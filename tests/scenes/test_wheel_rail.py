@@ -2,16 +2,20 @@
 
 import hashlib
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from bem import InputError, load_scene
+from bem.grid import Grid
 from bem.notes.contact import CONTACT_BENT, PROFILE_ENDS, SECOND_CONTACT
+from bem.profiles import Profile, WheelOnRail
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.runs import plan_scene
 from bem.scenes import PlainContext, get_kind
 from bem.scenes.kind import with_checksums
+from bem.scenes.wheel_rail import tell_profiles
 
 RAIL, WHEEL, ROLLING = 0.08, 0.3, 0.46
 
@@ -219,6 +223,21 @@ def test_a_flat_place_of_the_rail_is_the_same_curved_or_not():
     assert back.load == pytest.approx(bent.load, rel=1e-6)
     assert back.errors["approach"] < 1e-7 * bent.approach
     assert get_kind("contact").plan(resolved).memory > 8 * 25 * 66**2
+
+
+@pytest.mark.parametrize("half_turn", [30.0, 50.0])
+def test_the_turn_across_a_curved_contact_is_that_of_its_arc(half_turn):
+    """A groove of 15 mm: the normals turn by arc length over radius, beyond the groove's width along the tangent too."""
+    angle = np.linspace(-1.4, 1.4, 401)
+    groove, wheel = (Profile.through(radius * np.sin(angle), radius * (np.cos(angle) - 1)) for radius in (0.015, 0.013))
+    shape = SimpleNamespace(kind="profiles", conforming=True, placed=lambda: WheelOnRail(wheel, groove, 0.46))
+    grid = Grid((1, 101), (1e-3, 2 * 0.015 * 1.3 / 101))
+    pressed = np.abs(grid.y[None, :]) <= 0.015 * math.radians(half_turn)
+    told = []
+    context = SimpleNamespace(note=told.append)
+    tell_profiles(SimpleNamespace(shape=shape), grid, SimpleNamespace(pressure=pressed.astype(float)), context)
+    (note,) = told
+    assert note.values["angle"] == pytest.approx(2 * half_turn, abs=2 * math.degrees(grid.spacing[1] / 0.015))
 
 
 def test_normals_that_turn_far_are_told():
