@@ -58,6 +58,10 @@ class ConformingBodies:
     clearance : difference of the radii of bore and shaft [m]; positive.
     wall : thickness of the bush [m]; None for an infinite body of its material.
     housing : material around a bush with a wall; None for a rigid one.
+
+    Raises
+    ------
+    InputError : crystals, surface tension, or lengths of no bush.
     """
 
     shaft: Material
@@ -69,6 +73,12 @@ class ConformingBodies:
     _most_clearance: ClassVar[float] = 0.1
 
     def __post_init__(self) -> None:
+        for material in (self.shaft, self.bush, self.housing):
+            if material is not None and not material.boussinesq:
+                raise InputError(
+                    f"shaft in a bush: {material.name} is a crystal or has surface tension; allowed: isotropic "
+                    "materials without it"
+                )
         if not 0 < self.clearance < self._most_clearance * self.radius:
             raise InputError(
                 f"clearance {self.clearance:g} m of a bush of radius {self.radius:g} m; allowed: positive, and below a "

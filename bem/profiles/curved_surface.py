@@ -48,7 +48,7 @@ class CurvedSurface:
 
     Raises
     ------
-    InputError : layers, materials whose Dundurs' beta is not zero, periodic axes, or too many rows.
+    InputError : layers, crystals, surface tension, materials whose Dundurs' beta is not zero, periodic axes, or too many rows.
     """
 
     grid: Grid
@@ -61,6 +61,10 @@ class CurvedSurface:
     def __post_init__(self) -> None:
         if any(body.layers for body in self.bodies):
             raise InputError("curved contact: a body has layers; allowed: homogeneous bodies")
+        if not all(body.boussinesq for body in self.bodies):
+            raise InputError(
+                "curved contact: a body is a crystal or has surface tension; allowed: isotropic bodies without it"
+            )
         if couples(self.bodies):
             raise InputError(
                 "curved contact: the materials differ, so that pressures move the surfaces in their plane; allowed: "

@@ -18,10 +18,13 @@ from bem.contact.conforming import (
 from bem.materials import CATALOGUE, Material, contact_modulus, dundurs_beta
 from bem.reference_solutions.hertz import cylinder_contact
 from bem.reference_solutions.pin_in_hole import load_of_angle, pressure_at
+from bem.stiffness import Stiffness
 
 STEEL, PEEK = CATALOGUE["steel-52100"].material, CATALOGUE["peek"].material
 RADIUS, CLEARANCE = 10e-3, 20e-6
 POLYMER = ConformingBodies(STEEL, PEEK, RADIUS, CLEARANCE)
+CRYSTAL = Material("silicon", stiffness=Stiffness("cubic", c11=166e9, c12=64e9, c44=80e9))
+SOFT = Material("gel", youngs_modulus=1e5, poissons_ratio=0.3, surface_tension=0.03)
 
 
 def similar(first_ratio, second_ratio):
@@ -229,6 +232,14 @@ def test_the_load_is_that_of_the_pressure():
     pressure = np.concatenate([[0.0], found.pressures[::-1], [0.0]])
     assert RADIUS * np.trapezoid(pressure * np.cos(at), at) == pytest.approx(25e3, rel=2e-3)
     assert found.maximum_pressure == pytest.approx(found.pressures.max(), rel=1e-2)
+
+
+@pytest.mark.parametrize("place", ["shaft", "bush", "housing"])
+@pytest.mark.parametrize("material", [CRYSTAL, SOFT], ids=["crystal", "tension"])
+def test_crystals_and_surface_tension_are_refused(place, material):
+    housed = replace(POLYMER, wall=2e-3, housing=STEEL)
+    with pytest.raises(InputError, match="isotropic"):
+        replace(housed, **{place: material})
 
 
 def test_what_is_no_bush_is_refused():

@@ -19,6 +19,7 @@ from bem.profiles.curved_contact import solve_curved_contact
 from bem.profiles.curved_surface import CurvedSurface
 from bem.profiles.gap import gap_along_rail, rows_on_rail
 from bem.reference_solutions.hertz import cylinder_contact, ellipse_contact
+from bem.stiffness import Stiffness
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 BODIES = (Body(STEEL), Body(STEEL))
@@ -153,9 +154,13 @@ def test_what_cannot_be_is_refused():
     grid, rows = Grid((4, 5), (1e-3, 1e-3)), np.zeros(5)
     bronze = Body(Material("bronze", youngs_modulus=100e9, poissons_ratio=0.34))
     coated = Body(STEEL, layers=[Layer(STEEL, 1e-6)])
+    crystal = Body(Material("silicon", stiffness=Stiffness("cubic", c11=166e9, c12=64e9, c44=80e9)))
+    soft = Body(Material("gel", youngs_modulus=1e5, poissons_ratio=0.3, surface_tension=0.03))
     for bodies, message in (
         ((Body(STEEL), bronze), "materials differ"),
         ((coated, coated), "has layers"),
+        ((crystal, crystal), "isotropic"),
+        ((soft, soft), "isotropic"),
         ((Body(STEEL),), "materials differ"),  # under a rigid body
     ):
         with pytest.raises(InputError, match=message):
