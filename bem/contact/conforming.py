@@ -79,13 +79,18 @@ class ConformingBodies:
                     f"shaft in a bush: {material.name} is a crystal or has surface tension; allowed: isotropic "
                     "materials without it"
                 )
+        if not 0 < self.radius < math.inf:
+            raise InputError(f"bush of radius {self.radius:g} m; allowed: a positive radius")
         if not 0 < self.clearance < self._most_clearance * self.radius:
             raise InputError(
                 f"clearance {self.clearance:g} m of a bush of radius {self.radius:g} m; allowed: positive, and below a "
                 "tenth of the radius"
             )
-        if self.wall is not None and not self.wall > _THINNEST * self.radius:
-            raise InputError(f"wall {self.wall:g} m; allowed: above {_THINNEST:g} of the radius of the bore")
+        if self.wall is not None and not _THINNEST * self.radius < self.wall < math.inf:
+            raise InputError(
+                f"wall {self.wall:g} m; allowed: above {_THINNEST:g} of the radius of the bore, or None for a body "
+                "without end"
+            )
 
     @property
     def equivalent_radius(self) -> float:
@@ -139,8 +144,10 @@ def conforming_contact(bodies: ConformingBodies, load: float, *, nodes: int = NO
 
     Raises
     ------
-    InputError : a load under which the contact would go nearly all around.
+    InputError : a load that is not positive, or under which the contact would go nearly all around.
     """
+    if not 0 < load < math.inf:
+        raise InputError(f"load {load:g} N/m of a shaft in a bush; allowed: a positive load")
     wall = _WallSeries.of(bodies)
     low, high = _SMALLEST, _LARGEST
     first = _contact_over(bodies, low, nodes, wall)

@@ -73,13 +73,20 @@ def solve_curved_contact(
 
     Raises
     ------
-    InputError : not one of load and approach, or rows too steep for the direction.
+    InputError : not one of load and approach, values that are not finite, a gap of another shape than the grid, or rows
+        too steep for the direction.
     InfeasibleError : a load that is not positive.
     """
     if (load is None) == (approach is None):
         raise InputError(f"curved contact: give exactly one of load ({load!r}) and approach ({approach!r})")
     if load is not None and not load > 0:
         raise InfeasibleError(f"curved contact: load {load!r} N must be positive")
+    if not math.isfinite(load if load is not None else approach or 0.0):
+        raise InputError(f"curved contact: load {load!r} N, approach {approach!r} m; allowed: a finite number")
+    if np.shape(gap) != surface.grid.shape or not np.isfinite(gap).all():
+        raise InputError(
+            f"curved contact: gap of shape {np.shape(gap)}; allowed: finite numbers of shape {surface.grid.shape}"
+        )
     direction = surface.direction(angle)
     if direction.min() < math.cos(STEEPEST):
         raise InputError(

@@ -48,7 +48,8 @@ class CurvedSurface:
 
     Raises
     ------
-    InputError : layers, crystals, surface tension, materials whose Dundurs' beta is not zero, periodic axes, or too many rows.
+    InputError : layers, crystals, surface tension, materials whose Dundurs' beta is not zero, periodic axes, or too
+        many rows.
     """
 
     grid: Grid

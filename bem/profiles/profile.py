@@ -62,11 +62,15 @@ class Profile:
         InputError : too few points, points that coincide, or values that are not finite.
         """
         y, z = np.asarray(y, dtype=np.float64), np.asarray(z, dtype=np.float64)
-        if y.ndim != 1 or y.shape != z.shape or len(y) < FEWEST_POINTS:
+        if y.ndim != 1 or y.shape != z.shape:
+            raise InputError(
+                f"profile: y of shape {y.shape} and z of {z.shape}; allowed: two arrays (n,) of one length"
+            )
+        if len(y) < FEWEST_POINTS:
             raise InputError(f"profile: {len(y)} points; allowed: {FEWEST_POINTS} or more, each with y and z")
         if not (np.isfinite(y).all() and np.isfinite(z).all()):
             raise InputError("profile: a coordinate is not a finite number; allowed: finite numbers")
-        if not (math.isfinite(smoothing) and smoothing >= 0):
+        if not (isinstance(smoothing, int | float | np.number) and math.isfinite(smoothing) and smoothing >= 0):
             raise InputError(f"profile: smoothing {smoothing!r} m must be finite and not negative")
         if y[0] > y[-1]:
             y, z = y[::-1], z[::-1]

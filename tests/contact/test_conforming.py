@@ -247,5 +247,12 @@ def test_what_is_no_bush_is_refused():
         ConformingBodies(STEEL, PEEK, RADIUS, 0.0)
     with pytest.raises(InputError, match="wall"):
         ConformingBodies(STEEL, PEEK, RADIUS, CLEARANCE, wall=1e-6)
+    with pytest.raises(InputError, match="wall"):
+        ConformingBodies(STEEL, PEEK, RADIUS, CLEARANCE, wall=math.inf)
+    with pytest.raises(InputError, match="radius"):
+        ConformingBodies(STEEL, PEEK, math.inf, CLEARANCE)
+    for load in (0.0, -1.0, math.nan, math.inf):
+        with pytest.raises(InputError, match="positive load"):
+            conforming_contact(POLYMER, load)
     with pytest.raises(InputError, match="as without clearance"):
         conforming_contact(POLYMER, 1e16)

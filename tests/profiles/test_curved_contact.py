@@ -174,6 +174,10 @@ def test_what_cannot_be_is_refused():
                                   ({"load": 1.0}, 1.5, "narrower grid")):  # fmt: skip
         with pytest.raises(InputError, match=message):
             solve_curved_contact(gap, surface, angle, **given)
+    for given, found in (({"load": math.inf}, gap), ({"approach": math.nan}, gap), ({"approach": math.inf}, gap),
+                         ({"load": 1.0}, gap[:3]), ({"load": 1.0}, gap.T), ({"load": 1.0}, np.nan * gap)):  # fmt: skip
+        with pytest.raises(InputError, match="finite"):
+            solve_curved_contact(found, surface, 0.0, **given)
     with pytest.raises(InfeasibleError, match="positive"):
         solve_curved_contact(gap, surface, 0.0, load=-1.0)
 

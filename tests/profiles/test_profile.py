@@ -63,6 +63,20 @@ def test_parameters_are_found_to_round_off_and_not_beyond_the_ends():
     assert np.isnan(found[3])
 
 
+@pytest.mark.parametrize(
+    ("y", "z", "smoothing", "message"),
+    [
+        (1.0, 2.0, 0.0, "of one length"),
+        (np.arange(9.0), np.zeros(8), 0.0, "of one length"),
+        (np.arange(9.0), np.zeros(9), "a", "smoothing 'a'"),
+        (np.arange(9.0), np.zeros(9), math.nan, "smoothing nan"),
+    ],
+)
+def test_arrays_and_smoothing_that_are_none_are_refused(y, z, smoothing, message):
+    with pytest.raises(InputError, match=message):
+        Profile.through(y, z, smoothing=smoothing)
+
+
 def test_files_have_headers_separators_and_either_direction(tmp_path):
     y, z = arc(12)
     text = "# a rail\nname; test\n" + "".join(f"{1e3 * a:.9f};{1e3 * b:.9f}\n" for a, b in zip(y, z, strict=True))

@@ -227,7 +227,7 @@ def test_a_flat_place_of_the_rail_is_the_same_curved_or_not():
 
 @pytest.mark.parametrize("half_turn", [30.0, 50.0])
 def test_the_turn_across_a_curved_contact_is_that_of_its_arc(half_turn):
-    """A groove of 15 mm: the normals turn by arc length over radius, beyond the groove's width along the tangent too."""
+    """A groove of 15 mm: the normals turn by arc length over radius, beyond the groove's width too."""
     angle = np.linspace(-1.4, 1.4, 401)
     groove, wheel = (Profile.through(radius * np.sin(angle), radius * (np.cos(angle) - 1)) for radius in (0.015, 0.013))
     shape = SimpleNamespace(kind="profiles", conforming=True, placed=lambda: WheelOnRail(wheel, groove, 0.46))
