@@ -159,8 +159,10 @@ def _certified(
     grid = surface.grid
     pressure = force / direction
     displacement = surface(pressure)
-    deformed = gap + displacement - closing * direction
     touching = pressure > 0
+    if prescribed is not None:  # the last approach of the iteration is of the pressure before its last step
+        closing = float(((gap + displacement) / direction)[touching].mean())
+    deformed = gap + displacement - closing * direction
     violation = max(
         float(np.abs(deformed[touching]).max(initial=0.0)),
         float(-np.minimum(deformed[~touching], 0.0).min(initial=0.0)),

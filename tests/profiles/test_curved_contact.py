@@ -187,3 +187,7 @@ def test_few_iterations_end_as_not_converged():
     found = solve_curved_contact(gap, surface, 0.0, load=exact.load * LONG, max_iterations=3)
     assert found.contact.status is Status.MAX_ITERATIONS
     assert found.contact.residual > 1e-8
+    # the approach is that of the returned pressure: the deformed gap of its cells is none in the mean
+    touching = found.contact.pressure > 0
+    opening = (gap + surface(found.contact.pressure)) / surface.direction(0.0)
+    assert found.contact.approach == pytest.approx(float(opening[touching].mean()), rel=1e-9, abs=0)
