@@ -44,7 +44,7 @@ class CurvedSurface:
     grid : cells along x and along the arc length of the profile.
     y, z : positions of the rows, (ny,) [m].
     angles : of the rows' tangents to the horizontal, (ny,) [rad].
-    bodies : two bodies, or one under a rigid one, without layers.
+    bodies : two bodies, or one of Poisson's ratio 0.5 under a rigid one, without layers.
 
     Raises
     ------
@@ -67,9 +67,10 @@ class CurvedSurface:
                 "curved contact: a body is a crystal or has surface tension; allowed: isotropic bodies without it"
             )
         if couples(self.bodies):
+            cause = "the materials differ" if len(self.bodies) > 1 else "one body is rigid"
             raise InputError(
-                "curved contact: the materials differ, so that pressures move the surfaces in their plane; allowed: "
-                "bodies of one material, or of materials whose Dundurs' beta is zero"
+                f"curved contact: {cause}, so that pressures move the surfaces in their plane; allowed: bodies of one "
+                "material, of materials whose Dundurs' beta is zero, or of Poisson's ratio 0.5 under a rigid body"
             )
         if any(self.grid.periodic):
             raise InputError("curved contact: grid.periodic; allowed: a free grid")
