@@ -44,7 +44,7 @@ class CurvedSurface:
     grid : cells along x and along the arc length of the profile.
     y, z : positions of the rows, (ny,) [m].
     angles : of the rows' tangents to the horizontal, (ny,) [rad].
-    bodies : two bodies, or one of Poisson's ratio 0.5 under a rigid one, without layers.
+    bodies : two bodies without layers. One under a rigid one is refused: its surface moves in its plane.
 
     Raises
     ------
@@ -70,7 +70,7 @@ class CurvedSurface:
             cause = "the materials differ" if len(self.bodies) > 1 else "one body is rigid"
             raise InputError(
                 f"curved contact: {cause}, so that pressures move the surfaces in their plane; allowed: bodies of one "
-                "material, of materials whose Dundurs' beta is zero, or of Poisson's ratio 0.5 under a rigid body"
+                "material, or of materials whose Dundurs' beta is zero"
             )
         if any(self.grid.periodic):
             raise InputError("curved contact: grid.periodic; allowed: a free grid")

@@ -161,7 +161,7 @@ def test_what_cannot_be_is_refused():
         ((coated, coated), "has layers"),
         ((crystal, crystal), "isotropic"),
         ((soft, soft), "isotropic"),
-        ((Body(STEEL),), "one body is rigid.*ratio 0.5 under a rigid body"),
+        ((Body(STEEL),), "one body is rigid"),
     ):
         with pytest.raises(InputError, match=message):
             CurvedSurface(grid, rows, rows, rows, bodies)
@@ -169,8 +169,6 @@ def test_what_cannot_be_is_refused():
         CurvedSurface(Grid((4, 5), (1e-3, 1e-3), periodic=(False, True)), rows, rows, rows, BODIES)
     with pytest.raises(InputError, match="cells across"):
         CurvedSurface(Grid((1, 600), (1e-3, 1e-3)), rows, rows, rows, BODIES)
-    rubber = Body(Material("rubber", youngs_modulus=5e6, poissons_ratio=0.5))
-    assert CurvedSurface(grid, grid.y, rows, rows, (rubber,)).modulus == pytest.approx(5e6 / 0.75)
     surface, gap = CurvedSurface(grid, grid.y, rows, rows, BODIES), np.ones((4, 5))
     for given, angle, message in (({}, 0.0, "exactly one"), ({"load": 1.0, "approach": 1.0}, 0.0, "exactly one"),
                                   ({"load": 1.0}, 1.5, "narrower grid")):  # fmt: skip
