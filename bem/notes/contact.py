@@ -76,7 +76,7 @@ CONTACT_BENT = define(
         "bent": Reason(
             "The normals turn by {angle:.0f} deg across the contact, and it is solved on one plane: pressures in its"
             " outer parts have a wrong direction.",
-            "Set shape.conforming = true in kind contact; elsewhere take the result as an estimate.",
+            "Set shape.conforming = true in kind contact or rolling; elsewhere take the result as an estimate.",
         ),
         "turned": Reason(
             "The normals turn by {angle:.0f} deg across the contact. Half-spaces that are turned with the surface make"

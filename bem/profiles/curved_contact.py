@@ -58,6 +58,7 @@ def solve_curved_contact(
     approach: float | None = None,
     tolerance: float = 1e-8,
     max_iterations: int = 2000,
+    start: FloatArray | None = None,
 ) -> CurvedContact:
     """Solve the contact.
 
@@ -70,6 +71,7 @@ def solve_curved_contact(
     approach : along it [m].
     tolerance : of the largest violation over the standard deviation of the undeformed gap.
     max_iterations : of the conjugate gradients.
+    start : pressure to start from (nx, ny) [Pa]; affects cost and rounding only.
 
     Raises
     ------
@@ -94,7 +96,9 @@ def solve_curved_contact(
             f"{math.degrees(STEEPEST):.0f} degrees from the direction of the load; allowed: a narrower grid"
         )
     scaled_gap, area = gap / direction, surface.grid.cell_area
-    force = _start(scaled_gap, load, approach, surface)
+    force = _start(scaled_gap, load, approach, surface) if start is None else start * direction
+    if start is not None and load is not None:
+        force *= load / (area * float(force.sum()))
     goal = _TIGHTER * tolerance * (float(np.std(gap)) or 1.0)
     search, old_square, restart = np.zeros_like(gap), 1.0, True
     status, iterations = Status.MAX_ITERATIONS, max_iterations
@@ -125,7 +129,9 @@ def solve_curved_contact(
         restart = bool(joining.any() or (trial < 0).any())
         if load is not None:
             force *= load / (area * float(force.sum()))
-    return _certified(gap, surface, direction, force, closing, angle, load, tolerance, iterations, status)
+    return certified_contact(
+        gap, surface, angle, force / direction, closing, load, tolerance=tolerance, iterations=iterations, status=status
+    )
 
 
 def _start(scaled_gap: FloatArray, load: float | None, approach: float | None, surface: CurvedSurface) -> FloatArray:
@@ -143,21 +149,30 @@ def _start(scaled_gap: FloatArray, load: float | None, approach: float | None, s
     return stiffness * np.maximum(level - scaled_gap, 0.0)
 
 
-def _certified(
+def certified_contact(
     gap: FloatArray,
     surface: CurvedSurface,
-    direction: FloatArray,
-    force: FloatArray,
-    closing: float,
     angle: float,
-    prescribed: float | None,
+    pressure: FloatArray,
+    approach: float,
+    load: float | None,
+    *,
     tolerance: float,
     iterations: int,
     status: Status,
 ) -> CurvedContact:
-    """Return the solution with the residual recomputed from its pressure."""
+    """Return the solution with the residual recomputed from its pressure.
+
+    Parameters
+    ----------
+    gap, surface, angle, tolerance : as for `solve_curved_contact`.
+    pressure : (nx, ny) [Pa].
+    approach : [m].
+    load : prescribed [N], or None.
+    iterations, status : of the iteration.
+    """
+    direction, prescribed, closing = surface.direction(angle), load, approach
     grid = surface.grid
-    pressure = force / direction
     displacement = surface(pressure)
     touching = pressure > 0
     if prescribed is not None:  # the last approach of the iteration is of the pressure before its last step
@@ -167,7 +182,7 @@ def _certified(
         float(np.abs(deformed[touching]).max(initial=0.0)),
         float(-np.minimum(deformed[~touching], 0.0).min(initial=0.0)),
     )
-    load = float(force.sum()) * grid.cell_area
+    load = float((pressure * direction).sum()) * grid.cell_area
     residual = violation / (float(np.std(gap)) or 1.0)
     if prescribed is not None:
         residual = max(residual, abs(load / prescribed - 1))

@@ -29,7 +29,7 @@ from bem.grid import FloatArray
 from bem.kernels.layered import frequency_response
 from bem.kernels.loads import Load
 from bem.tangential.friction_discs import project_to_friction_discs
-from bem.tangential.operator import TangentialOperator
+from bem.tangential.operator import SlipOperator, TangentialOperator
 
 BoolArray = NDArray[np.bool_]
 
@@ -61,7 +61,7 @@ class Certificate:
 
 
 def certify(
-    operator: TangentialOperator,
+    operator: SlipOperator,
     bound: FloatArray,
     traction: FloatArray,
     displacement_residual: FloatArray,
@@ -73,7 +73,7 @@ def certify(
 
     Parameters
     ----------
-    operator : of the grid and the bodies.
+    operator : of the grid and the bodies; its stiffness is used.
     bound : (nx, ny), friction x pressure [Pa].
     traction : (2, nx, ny) [Pa].
     displacement_residual : (2, nx, ny), minus the slip [m].

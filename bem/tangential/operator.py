@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +35,25 @@ from bem.materials import Body
 from bem.transforms import kernel_spectrum, offset_cosines, padded_shape, transform_of
 
 ComplexArray = NDArray[np.complex128]
+
+
+class SlipOperator(Protocol):
+    """Displacement under tractions, as steady rolling needs it: of flat surfaces or of curved ones."""
+
+    @property
+    def grid(self) -> Grid:
+        """Cells along the rolling and across it."""
+
+    @property
+    def count(self) -> ConvolutionCount:
+        """Applications so far."""
+
+    @property
+    def stiffness(self) -> float:
+        """Return the traction over the displacement [Pa/m] of a cell that is loaded alone."""
+
+    def apply(self, traction: FloatArray) -> FloatArray:
+        """Return the displacement (2, nx, ny) [m], first body less second, under tractions on the first one [Pa]."""
 
 
 class InPlaneSpectra(NamedTuple):

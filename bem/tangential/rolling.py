@@ -45,7 +45,7 @@ from bem.notes.contact import FRICTION_NOT_UNIQUE
 from bem.tangential.certificate import certify
 from bem.tangential.friction_discs import project_to_friction_discs, project_with_force
 from bem.tangential.friction_laws import SlipFriction
-from bem.tangential.operator import TangentialOperator, tangential_operator
+from bem.tangential.operator import SlipOperator, tangential_operator
 from bem.tangential.problem import (
     SAFETY,
     LocalFriction,
@@ -132,6 +132,32 @@ def solve_rolling(
     solution = _solution(problem, result, under_pressure, creep * grid.spacing[0], tolerance, failed)
     fields = {name: getattr(solution, name)[:, inside] for name in ("traction", "displacement", "slip")}
     return replace(solution, **fields)
+
+
+@one_blas_thread
+def solve_rolling_problem(
+    problem: RollingProblem,
+    displacement: FloatArray,
+    creepage: FloatArray,
+    *,
+    tolerance: float,
+    max_iterations: int = 200,
+    start: FloatArray | None = None,
+) -> TangentialSolution:
+    """Solve a rolling problem under prescribed creepages, on a surface of any operator.
+
+    Parameters
+    ----------
+    problem : with a bound that does not fall, and without a given force.
+    displacement : of the first surface less the second under the pressure, (2, nx, ny) [m].
+    creepage : (2,), for the record; it is part of the problem's imposed slip.
+    tolerance, max_iterations : as for `solve_rolling`.
+    start : tractions to start from (2, nx, ny) [Pa].
+    """
+    begin = None if start is None else _RollingResult(start[:, problem.bound > 0], np.zeros(2), 0)
+    result = _solve(problem, SAFETY * tolerance, max_iterations, begin)
+    failed = Status.MAX_ITERATIONS if result.iterations >= max_iterations else Status.STALLED
+    return _solution(problem, result, displacement, creepage * problem.operator.grid.spacing[0], tolerance, failed)
 
 
 def _check_creepage(
@@ -229,7 +255,7 @@ class RollingProblem:
     falling : bound that falls with the slip speed; None if it does not.
     """
 
-    operator: TangentialOperator
+    operator: SlipOperator
     bound: FloatArray
     imposed_slip: FloatArray
     traction_sum: FloatArray | None

@@ -258,12 +258,76 @@ def test_normals_that_turn_far_are_told():
         ({"upper": {}}, "different materials"),
         ({"outputs": {"von_mises": True}}, "stresses below the surface"),
         ({"lower": {"material": "steel-52100", "layer": {"material": "dlc", "thickness": "2 um"}}}, "layers"),
-        ({"kind": "rolling", "roll": {"friction": 0.3}}, "kind contact, or conforming = false"),
+        ({"kind": "partial-slip", "push": {"friction": 0.3, "share": 0.5}}, "kind contact or rolling, or conforming"),
     ],
 )
 def test_a_curved_contact_is_smooth_elastic_and_without_friction(tables, message):
     with pytest.raises(InputError, match=message):
         load_scene(curved() | tables)
+
+
+ROLL = {"friction": 0.3, "creepage": 0.001}
+
+
+def curved_rolling(shape=CURVED, **tables):
+    return curved(shape, **({"kind": "rolling", "roll": ROLL} | tables))
+
+
+def test_tread_and_flange_root_roll_on_one_curved_surface():
+    """Error bars cover the difference to cells of half the size."""
+    record, context, resolved = run(curved_rolling(cells=(20, 66)))
+    assert record.status == "converged"
+    assert CONTACT_BENT.code not in codes(context)
+    assert record.load == pytest.approx(80e3, rel=1e-7)
+    finer, _, _ = run(curved_rolling(cells=(40, 132), outputs={"errors": False}))
+    for name in ("force", "force_across", "lateral_force", "friction_work", "stick_fraction", "contact_area_fraction"):
+        assert abs(getattr(record, name) - getattr(finer, name)) <= record.errors[name], name
+        assert 0 < record.errors[name] < 0.4 * abs(getattr(finer, name)), name
+    assert record.force < 0
+    assert 0.1 < record.stick_fraction < 0.9
+    assert get_kind("rolling").plan(resolved).memory > 8 * 21 * 66**2
+
+
+@pytest.mark.parametrize(
+    "grid", [{"shape": [6, 44], "lengths": ["36 mm", "44 mm"]}, {"shape": [20, 20], "lengths": ["24 mm", "6 mm"]}]
+)
+def test_rolling_of_few_cells_or_beyond_the_grid_has_no_error_bars(grid):
+    record, context, _ = run(curved_rolling(STANDARD | {"lateral": "-1 mm", "conforming": True}) | {"grid": grid})
+    assert record.status == "converged"
+    assert all(record.errors[name] is None for name in ("force", "lateral_force", "friction_work"))
+    assert ("contact-at-edge" in codes(context)) == (grid["shape"][0] == 20)
+
+
+def test_the_tread_rolls_alike_curved_or_not_but_for_its_rolling_radii(monkeypatch):
+    """Normals turn by 5 degrees there; rolling radii differ by 0.1 mm, a creepage of 0.0002 beside that of 0.001."""
+    shape = STANDARD | {"lateral": "-1 mm"}
+    flat, _, _ = run(curved_rolling(shape, outputs={"errors": False}))
+    bent, _, resolved = run(curved_rolling(shape | {"conforming": True}, outputs={"errors": False}))
+    assert 1.05 < bent.force / flat.force < 1.2
+    assert flat.lateral_force is None
+    assert bent.spin == flat.spin
+    names = {step.name: step for step in get_kind("rolling").plan(resolved).steps}
+    assert names["error bars"].skipped
+    monkeypatch.setattr(WheelOnRail, "rolling_curvature", lambda placed, point: 0.0)
+    even, _, _ = run(curved_rolling(shape | {"conforming": True}, outputs={"errors": False}))
+    for name in ("force", "force_across", "friction_work"):
+        assert getattr(even, name) == pytest.approx(getattr(flat, name), rel=0.02), name
+
+
+@pytest.mark.parametrize(
+    ("tables", "message"),
+    [
+        ({"roll": {"friction": 0.3, "share": 0.5}}, "roll.share"),
+        ({"roll": {"friction": {"kind": "tresca", "shear_limit": "50 MPa"}}}, "a friction law"),
+        ({"roll": {"friction": 0.3}, "history": {"distances": [0, 0.02], "creepages": [0.001, 0.001]}}, "a history"),
+        ({"outputs": {"von_mises": True}}, "stresses below the surface"),
+        ({"contact": {"mean_gap": "1 um"}}, "contact.mean_gap"),
+        ({"upper": {"material": "phosphor-bronze"}}, "different materials"),
+    ],
+)
+def test_curved_rolling_is_steady_with_creepages_and_one_coefficient(tables, message):
+    with pytest.raises(InputError, match=message):
+        load_scene(curved_rolling(**tables))
 
 
 @pytest.mark.parametrize(

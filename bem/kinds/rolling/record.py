@@ -22,6 +22,14 @@ class RollingRecord(StickRecord):
         float, Figure("N", "force on the lower body along x, against rolling where negative", headline=True)
     ]
     force_across: Annotated[float, Figure("N", "force on the lower body along +y", headline=True)]
+    lateral_force: Annotated[
+        float | None,
+        Figure(
+            "N",
+            "resultant of the pressures on the curved rail across the load, along +y; that of friction is apart",
+            optional=True,
+        ),
+    ] = None
     traction_coefficient: Annotated[float, Figure("", "size of the force over load", headline=True)]
     creepage: Annotated[float, Figure("", "creepage along x", headline=True)]
     creepage_across: Annotated[float, Figure("", "creepage along y")]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bem.errors import Status
+from bem.kinds.rolling.conforming import bars_of_conforming, rolled_together
 from bem.kinds.rolling.errors import bars_of
 from bem.kinds.rolling.record import RollingRecord
 from bem.kinds.rolling.scene import RollingContactScene
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 
 def run(scene: RollingContactScene, context: Context) -> RollingRecord:
     """Solve the contact, then what sticks while it rolls."""
+    if scene.shape.conforming:
+        return _run_conforming(scene, context)
     site = sticking.pressed_together(scene, context)
     curves: dict[str, Any] = {}
     with context.timer("rolling"):
@@ -43,6 +46,16 @@ def run(scene: RollingContactScene, context: Context) -> RollingRecord:
         rolled_figures(site, found, scene.roll.spin) | sticking.stress_figures(below) | curves,
         errors,
     )
+
+
+def _run_conforming(scene: RollingContactScene, context: Context) -> RollingRecord:
+    """Solve pressures and tractions on the curved surface of the rail together."""
+    site, solved = rolled_together(scene, context)
+    found = solved.rolling
+    wanted = scene.outputs.errors and Status.CONVERGED is site.contact.status is found.status
+    errors = error_bars(context, wanted, lambda: bars_of_conforming(scene, site, solved))
+    figures = rolled_figures(site, found, scene.roll.spin) | {"lateral_force": solved.lateral_force}
+    return _record(scene, site, found, figures, errors)
 
 
 def _record(

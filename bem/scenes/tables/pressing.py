@@ -171,7 +171,7 @@ class PressedScene(SceneModel):
     @model_validator(mode="after")
     def _curved_where_known(self) -> Self:
         if self.shape.conforming and not self.curved_surfaces:
-            raise problem("shape.conforming in this kind", "kind contact, or conforming = false")
+            raise problem("shape.conforming in this kind", "kind contact or rolling, or conforming = false")
         return self
 
     @model_validator(mode="after")

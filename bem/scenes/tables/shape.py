@@ -83,7 +83,8 @@ class ShapeScene(Table):
     )
 
     conforming: bool | None = key(
-        "Solve on the curved surface of the rail, y its arc length, not on the tangent plane; for the kind contact.",
+        "Solve on the curved surface of the rail, y its arc length, not on the tangent plane; for the kinds contact "
+        "and rolling.",
         "advanced",
         default=None,
         reason="false",
