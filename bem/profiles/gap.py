@@ -177,6 +177,9 @@ def _on_section(profile: Profile, start: float, rows: Rows) -> FloatArray:
 def _heights(surface: _Surface, on_section: FloatArray, turn: float, radius: float, x: FloatArray) -> FloatArray:
     """Return the heights (nx, ny) [m] of a body of revolution over the cells, not-a-number where it has none.
 
+    Newton's method finds no point over cells that the silhouette of the body leaves out, as beside the tip of a
+    flange; continuation from the next cell does not either.
+
     surface : function of arc length and turn, see `_height_of_wheel`. on_section : arc lengths to start from.
     """
     s = np.broadcast_to(on_section, (len(x), len(on_section))).copy()
