@@ -10,13 +10,22 @@ Coordinates: x along the rail in the direction of rolling, y to the right, z dow
 - `curved_traction`, `curved_rolling`: steady rolling with friction on it.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from bem.profiles.catalogue import catalogued_profile
 from bem.profiles.curved_contact import CurvedContact, solve_curved_contact
-from bem.profiles.curved_rolling import CurvedRolling, Rolling, solve_curved_rolling
 from bem.profiles.curved_surface import CurvedSurface
 from bem.profiles.gap import gap_along_rail, gap_over_tangent_plane
 from bem.profiles.placement import ContactPoint, WheelOnRail
 from bem.profiles.profile import Profile, read_profile
+from bem.startup.lazy import loader
+
+if TYPE_CHECKING:
+    from bem.profiles.curved_rolling import CurvedRolling, Rolling, solve_curved_rolling
+
+__getattr__ = loader(__name__, {"curved_rolling": ["CurvedRolling", "Rolling", "solve_curved_rolling"]})
 
 __all__ = [
     "ContactPoint",
