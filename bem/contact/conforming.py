@@ -31,20 +31,21 @@ from bem.materials import Material, contact_modulus
 
 NODES = 48
 """Nodes over the contact; pressures of 48 and 96 nodes agree to 1e-8, under a wall of 2 % of the radius to 1e-6."""
-_SMALLEST, _LARGEST = 1e-3, 2.6
-"""Half-angles between which a load is sought [rad]."""
-_TRIALS, _LOAD_TOLERANCE = 100, 1e-10
+_MIN_HALF_ANGLE, _MAX_HALF_ANGLE = 1e-3, 2.6
+"""Half-angles between which a load is sought [rad]: below, contacts are those of Hertz to 1e-6; above them no
+contact with clearance is found."""
+_MAX_TRIALS, _LOAD_TOLERANCE = 100, 1e-10
 """Half-angles that are tried at most, and the relative deviation of the load at which one is found."""
 _ANGLE_RESOLUTION = 1e-14
 """Relative width of a bracket of half-angles at which the search ends: no load is found between its ends."""
-_THINNEST = 0.001
-"""Thinnest wall over the radius whose harmonics are summed."""
-_LARGER = 10.0
-"""Radii of the equivalent cylinder over those of shaft and bush."""
-_SMALLER = 12.0
+_MIN_WALL = 0.001
+"""Thinnest wall over the radius whose harmonics are summed: it takes 20 000 of them."""
+_CYLINDER_SCALE = 10.0
+"""Radii of the equivalent cylinder over those of shaft and bush: the effect of conformity is a hundredth."""
+_BORE_SCALE = 12.0
 """Radius of a cylinder on a flat over that of the bore in which it is solved."""
 _DECAY = 40.0
-"""Harmonics of a wall are summed until they have fallen by exp of this."""
+"""Harmonics of a wall are summed until they have fallen by exp of this, to 4e-18."""
 
 
 @dataclass(frozen=True)
@@ -86,9 +87,9 @@ class ConformingBodies:
                 f"clearance {self.clearance:g} m of a bush of radius {self.radius:g} m; allowed: positive, and below a "
                 "tenth of the radius"
             )
-        if self.wall is not None and not _THINNEST * self.radius < self.wall < math.inf:
+        if self.wall is not None and not _MIN_WALL * self.radius < self.wall < math.inf:
             raise InputError(
-                f"wall {self.wall:g} m; allowed: above {_THINNEST:g} of the radius of the bore, or None for a body "
+                f"wall {self.wall:g} m; allowed: above {_MIN_WALL:g} of the radius of the bore, or None for a body "
                 "without end"
             )
 
@@ -104,7 +105,7 @@ class ConformingBodies:
         Radii are ten times larger and the gap near the load line, clearance/radius^2, is that of the equivalent radius:
         the effect of conformity falls with the square of the angle.
         """
-        radius = _LARGER * self.radius
+        radius = _CYLINDER_SCALE * self.radius
         clearance = radius**2 / self.equivalent_radius
         return _CylinderOnFlat(self.shaft, self.bush, radius, clearance, self.wall, self.housing)
 
@@ -149,13 +150,13 @@ def conforming_contact(bodies: ConformingBodies, load: float, *, nodes: int = NO
     if not 0 < load < math.inf:
         raise InputError(f"load {load:g} N/m of a shaft in a bush; allowed: a positive load")
     wall = _WallSeries.of(bodies)
-    low, high = _SMALLEST, _LARGEST
+    low, high = _MIN_HALF_ANGLE, _MAX_HALF_ANGLE
     first = _contact_over(bodies, low, nodes, wall)
     if load <= first.load:  # Hertz: the load grows with the square of the half-angle
         return _contact_over(bodies, low * math.sqrt(load / first.load), nodes, wall)
     # the load grows about as the square of the half-angle; none is positive beyond that of a shaft without clearance
     below, tried, found = first, math.sqrt(load / first.load) * low, first
-    for _ in range(_TRIALS):
+    for _ in range(_MAX_TRIALS):
         if not low < tried < high:
             tried = math.sqrt(low * high)
         found = _contact_over(bodies, tried, nodes, wall)
@@ -190,24 +191,50 @@ def modulus_on_layer(
     ------
     InputError : as `ConformingBodies` and `conforming_contact`.
     """
-    bore = radius / _SMALLER
+    bore = radius / _BORE_SCALE
     bodies = ConformingBodies(cylinder, layer, bore, bore**2 / radius, thickness, substrate)
     half_width = conforming_contact(bodies, load).half_angle * bore
     return 4 * load * radius / (math.pi * half_width**2)
 
 
 def _contact_over(bodies: ConformingBodies, half: float, nodes: int, wall: _WallSeries) -> ConformingContact:
-    """Return the contact over a half-angle [rad], whatever its load."""
-    k = np.arange(nodes)
-    turn = math.pi * (k + 0.5) / nodes
-    x = np.cos(turn)
-    angle = half * x
-    apart = angle[:, None] - angle[None, :]
+    """Return the contact over a half-angle [rad], whatever its load.
+
+    The unknowns are the pressure at the nodes times sqrt(1 - x^2) and the shift of the shaft. The equations are that of
+    the closed gap at every node, and that the pressure vanishes at the ends of the contact.
+    """
+    turn = math.pi * (np.arange(nodes) + 0.5) / nodes  # arccos of the nodes of the contact, from -1 to 1
+    angle = half * np.cos(turn)
     orders = np.arange(1, nodes)
-    values = np.cos(orders[:, None] * turn)  # T_k at the nodes
-    log_weights = math.pi / nodes * (-math.log(2) - 2 * (values.T / orders) @ values)
-    sines = np.sin(orders[:, None] * turn)
-    jump_weights = ((math.pi - 2 * turn)[:, None] - 4 * (sines.T / orders) @ values) / nodes
+    chebyshev = np.cos(orders[:, None] * turn)  # T_n at the nodes, n >= 1
+    kernel = _influence(bodies, half, turn) + math.pi / nodes * wall.sum(angle)
+    matrix = np.zeros((nodes + 1, nodes + 1))
+    scale = bodies.radius / bodies.modulus
+    matrix[:nodes, :nodes] = half / (math.pi * scale) * kernel
+    matrix[:nodes, nodes] = -np.cos(angle)
+    matrix[nodes, :nodes] = (1 + 2 * chebyshev.sum(axis=0)) / nodes  # the density at x = 1
+    right = np.zeros(nodes + 1)
+    # over the distance of the shaft from a bore that it would fill: -clearance, less the clearance's part along cos,
+    # which leaves no difference of nearly equal numbers at small angles
+    right[:nodes] = -bodies.clearance / scale * 2 * np.sin(0.5 * angle) ** 2
+    density = np.linalg.solve(matrix, right)[:nodes]  # pressure times sqrt(1 - x^2)
+    load = half * bodies.radius * math.pi / nodes * float(density @ np.cos(angle))
+    coefficients = np.concatenate([[np.mean(density)], 2 / nodes * chebyshev @ density])
+    at_middle = np.cos(0.5 * math.pi * np.arange(nodes))  # T_n at x = 0
+    return ConformingContact(load, half, float(at_middle @ coefficients), angle, density / np.sin(turn))
+
+
+def _influence(bodies: ConformingBodies, half: float, turn: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the widening of the gap by densities at the nodes, times pi over the half-angle, (nodes, nodes) [m/Pa].
+
+    Of a bush without a wall; the density is the pressure times sqrt(1 - x^2).
+
+    half : half-angle of the contact [rad]. turn : arccos of the nodes, (nodes,) [rad].
+    """
+    nodes = len(turn)
+    angle = half * np.cos(turn)
+    apart = angle[:, None] - angle[None, :]
+    log_weights, jump_weights = _weights(turn)
     plain = math.pi / nodes
     quarter = 0.25 * bodies.radius
     shaft, bush = bodies.shaft, bodies.bush
@@ -220,23 +247,22 @@ def _contact_over(bodies: ConformingBodies, half: float, nodes: int, wall: _Wall
     ratio = half * np.sinc(0.5 * apart / math.pi)
     logarithm = -log_weights - plain * np.log(ratio)
     jump = 0.5 * math.pi * jump_weights - 0.5 * plain * apart
-    kernel = (less + more) * cosine * logarithm + (more - less) * sine * jump
-    kernel += plain * (0.5 * mean - more * (1 + 0.5 * cosine) + wall.sum(angle))
-    matrix = np.zeros((nodes + 1, nodes + 1))
-    scale = bodies.radius / bodies.modulus
-    matrix[:nodes, :nodes] = half / (math.pi * scale) * kernel
-    matrix[:nodes, nodes] = -np.cos(angle)
-    matrix[nodes, :nodes] = (1 + 2 * (np.cos(np.outer(turn, orders)) @ np.ones(nodes - 1))) / nodes
-    right = np.zeros(nodes + 1)
-    # over the distance of the shaft from a bore that it would fill: -clearance, less the clearance's part along cos,
-    # which leaves no difference of nearly equal numbers at small angles
-    right[:nodes] = -bodies.clearance / scale * 2 * np.sin(0.5 * angle) ** 2
-    density = np.linalg.solve(matrix, right)[:nodes]  # pressure times sqrt(1 - x^2)
-    load = half * bodies.radius * plain * float(density @ np.cos(angle))
-    coefficients = np.concatenate([[np.mean(density)], 2 / nodes * values @ density])
-    return ConformingContact(
-        load, half, float(np.cos(0.5 * math.pi * np.arange(nodes)) @ coefficients), angle, density / np.sin(turn)
-    )
+    kernel: NDArray[np.float64] = (less + more) * cosine * logarithm + (more - less) * sine * jump
+    kernel += plain * (0.5 * mean - more * (1 + 0.5 * cosine))
+    return kernel
+
+
+def _weights(turn: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the weights of ln|x - x'| and of sign(x - x') at the nodes x by densities at the nodes x', (nodes, nodes).
+
+    The integrals of a density over sqrt(1 - x'^2) are exact for polynomials of a degree below the number of nodes.
+    """
+    nodes = len(turn)
+    orders = np.arange(1, nodes)
+    values, sines = np.cos(orders[:, None] * turn), np.sin(orders[:, None] * turn)
+    log_weights = math.pi / nodes * (-math.log(2) - 2 * (values.T / orders) @ values)
+    jump_weights = ((math.pi - 2 * turn)[:, None] - 4 * (sines.T / orders) @ values) / nodes
+    return log_weights, jump_weights
 
 
 @dataclass(frozen=True)

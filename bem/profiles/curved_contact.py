@@ -27,7 +27,7 @@ from bem.notes import Note
 from bem.notes.contact import CONTACT_AT_EDGE
 from bem.profiles.curved_surface import CurvedSurface
 
-STEEPEST = math.radians(80)
+STEEPEST_ROW = math.radians(80)
 """Largest angle between a row's normal and the direction of approach: the component along it is 0.17."""
 _TIGHTER = 0.3
 """Tolerance of the iteration over that of the residual, which is recomputed."""
@@ -90,10 +90,10 @@ def solve_curved_contact(
             f"curved contact: gap of shape {np.shape(gap)}; allowed: finite numbers of shape {surface.grid.shape}"
         )
     direction = surface.direction(angle)
-    if direction.min() < math.cos(STEEPEST):
+    if direction.min() < math.cos(STEEPEST_ROW):
         raise InputError(
             "curved contact: the surface turns by more than "
-            f"{math.degrees(STEEPEST):.0f} degrees from the direction of the load; allowed: a narrower grid"
+            f"{math.degrees(STEEPEST_ROW):.0f} degrees from the direction of the load; allowed: a narrower grid"
         )
     scaled_gap, area = gap / direction, surface.grid.cell_area
     force = _start(scaled_gap, load, approach, surface) if start is None else start * direction
