@@ -299,7 +299,7 @@ def test_rolling_of_few_cells_or_beyond_the_grid_has_no_error_bars(grid):
 
 
 def test_the_tread_rolls_alike_curved_or_not_but_for_its_rolling_radii(monkeypatch):
-    """Normals turn by 5 degrees there; rolling radii differ by 0.1 mm, a creepage of 0.0002 beside that of 0.001."""
+    """Normals turn by 5 degrees there; rolling radii differ by up to 0.3 mm, creepages of 0.0002 in the mean."""
     shape = STANDARD | {"lateral": "-1 mm"}
     flat, _, _ = run(curved_rolling(shape, outputs={"errors": False}))
     bent, _, resolved = run(curved_rolling(shape | {"conforming": True}, outputs={"errors": False}))
