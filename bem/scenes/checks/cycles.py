@@ -38,7 +38,6 @@ from bem.scenes.checks.roughened import roughened, with_pieces
 from bem.scenes.checks.words import numbers
 from bem.scenes.common import BODIES, SmoothSurface
 from bem.scenes.context import Outcome
-from bem.scenes.wearing import cycles_of_a_turn
 
 _SERIES = {
     "rms_height_over_cycles": "Sq of the worn surface",
@@ -114,6 +113,10 @@ def _turn(facts: Facts) -> int:
 
     0 where nothing rough moves, or where contacts of the scene have different turns.
     """
+    if not any(case.wear is not None for case in facts.cases):
+        return 0
+    from bem.scenes.wearing import cycles_of_a_turn
+
     turns = set()
     for case in facts.cases:
         moving = "lower" if case.wear is not None and case.wear.frame == "cylinder" else "upper"
