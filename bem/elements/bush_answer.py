@@ -193,7 +193,8 @@ def _temperature_notes(model: PlainBushModel, film: FilmOfBush | None, temperatu
     """Return notes on a bush temperature [K] that the bush or its liquid does not stand, or its film does not have."""
     notes, highest = [], model.service_temperature
     if highest is not None and temperature > highest:
-        notes.append(BUSH_OVER_LIMIT(value=temperature - CELSIUS, limit=highest - CELSIUS, reason="temperature"))
+        reason = "temperature" if model.maximum_temperature is None else "given"
+        notes.append(BUSH_OVER_LIMIT(value=temperature - CELSIUS, limit=highest - CELSIUS, reason=reason))
     lost = _liquid_lost(model, temperature, 0.0 if film is None else film.rise)
     if lost is not None:
         notes.append(lost)

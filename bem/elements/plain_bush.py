@@ -52,8 +52,17 @@ TRANSFER, AREA_FACTOR = 15.0, 15.0
 bearing block, the lower ends of the usual ranges 15 to 20 of both (DIN 31652, from memory, not checked)."""
 SERVICE_TEMPERATURES = {
     "peek": (523.15, "continuous use of PEEK: W. Hufenbach, K. Kunze and J. Bijwe (2003), introduction"),
+    "ptfe": (533.15, "working temperature of PTFE: Mechanical Engineer's Data Handbook; it melts at 327 °C"),
+    "pom": (373.15, "continuous use of POM, about 100 °C by suppliers' tables; it melts at 162 to 175 °C"),
+    "pa66": (373.15, "continuous use of PA 66, middle of 80 to 120 °C of suppliers' tables; it melts at 260 °C"),
 }
-"""Highest temperature of a bush by material of the catalogue [K], with its source."""
+"""Highest temperature of a bush by material of the catalogue [K], with its source.
+
+Those of PTFE, POM and PA 66 are second hand. Excerpts that a search showed have the 260 °C of PTFE (page 243 of the
+handbook), its 327 °C (abstract of doi 10.1108/eb052334), 162 to 175 °C of POM (Craftech), 120 °C of PA 66 and a melting
+point of 264 °C (data sheet of Nylatron 66 SA FR). The continuous use of POM and the 80 °C of PA 66 are from memory; a
+chart of Ensinger has both materials between 100 and 150 °C. No page was read in the original.
+"""
 FAR_FROM_CYLINDER = 0.05
 """Deviation of the equivalent cylinder's peak pressure from that of the conforming contact above which it is said."""
 LONG = 5.0

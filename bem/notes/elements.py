@@ -129,9 +129,14 @@ BUSH_OVER_LIMIT = define(
             headline="Pressure times velocity (p v) exceeds its limit.",
         ),
         "temperature": Reason(
-            "By the heat balance it reaches {value:.0f} °C, above {limit:.0f} °C: no steady operation is possible.",
+            "It would reach {value:.0f} °C, above {limit:.0f} °C; wear and life do not hold.",
             "Lower friction, load or speed, or lead off more heat (heat_balance).",
-            headline="The bush becomes too hot.",
+            headline="The bush becomes too hot: it would soften or melt.",
+        ),
+        "given": Reason(
+            "It would reach {value:.0f} °C, above {limit:.0f} °C; wear and life do not hold.",
+            "Lower friction, load or speed, or lead off more heat (heat_balance).",
+            headline="The bush becomes too hot: above maximum_temperature.",
         ),
         "yield": Reason(
             "The peak pressure is {value:.3g} MPa, the yield stress of the bush {limit:.3g} MPa. Polymers creep far "

@@ -86,6 +86,20 @@ def test_heat_of_a_dry_bush_by_hand():
     )
 
 
+@pytest.mark.parametrize(("bush", "limit"), [("pom", 100), ("pa66", 100), ("ptfe", 260), ("peek", 250)])
+def test_polymers_have_limit_temperatures(bush, limit):
+    """Each is above its limit one kelvin beyond it and not one below, and a given limit takes its place."""
+    for beyond in (-1, 1):
+        element = load_element(DRY | {"second": bush, "bulk_temperature": f"{limit + beyond} degC"})
+        notes = [note for note in answer_notes(element, ()) if note.code == BUSH_OVER_LIMIT.code]
+        assert len(notes) == (beyond > 0)
+        assert f"limit {limit} °C (" in dict(answer(element, ()))["temperatures"]
+    assert "soften or melt" in notes[0].headline
+    given = load_element({**element.table, "maximum_temperature": "60 degC"})
+    (note,) = [note for note in answer_notes(given, ()) if note.code == BUSH_OVER_LIMIT.code]
+    assert "maximum_temperature" in note.headline
+
+
 def test_a_lubricated_bush_has_a_film_and_its_friction():
     element = load_element(without(WATER, "wall", "housing") | {"thermal": "off"})
     runs = run_all(element)
