@@ -15,7 +15,7 @@ import ufl
 from numpy.typing import NDArray
 
 from fem_reference.convergence import Curve, Method, Statement, equilibrium, study
-from fem_reference.disc import SURFACE, depths, interfaces
+from fem_reference.disc import SURFACE, depths, interfaces, off_mesh_lines
 from fem_reference.elasticity import Solution, WeakForm, cartesian_components, isotropic_stress, solve
 from fem_reference.layers import LAYERS, STACKS, bodies, describe_body
 from fem_reference.problem import LAYER, POISSONS_RATIO, Parameter, Problem
@@ -100,7 +100,7 @@ def _curves(solution: Solution, load: str, thicknesses: Sequence[float]) -> list
     for words, side, depth in interfaces(thicknesses):
         lines.append((f"{words} ({side})", np.array([[x, 0.0, depth] for x in across]), side))
     for name, points, side in lines:
-        _, stress = evaluate(solution, points, load, side or None)
+        _, stress = evaluate(solution, off_mesh_lines(points, thicknesses), load, side or None)
         free = components(load, on_axis=not points[:, 0].any())
         found += [
             Curve(kind, "p", name, points, values, derivative=True)
