@@ -8,6 +8,7 @@ from typing import Any
 
 from bem.elements.plain_bush import (
     AREA_FACTOR,
+    EXPANSION,
     SERVICE_TEMPERATURES,
     TRANSFER,
     WORN_IN,
@@ -20,6 +21,7 @@ from bem.notes.elements import (
     BUSH_FLOATS,
     BUSH_LIQUID_LOST,
     BUSH_OVER_LIMIT,
+    BUSH_SWELLS,
     BUSH_TOUCHES,
     BUSH_WARMER_THAN_OIL,
     BUSH_WEARS_IN_FILM,
@@ -195,6 +197,14 @@ def _temperature_notes(model: PlainBushModel, film: FilmOfBush | None, temperatu
     if highest is not None and temperature > highest:
         reason = "temperature" if model.maximum_temperature is None else "given"
         notes.append(BUSH_OVER_LIMIT(value=temperature - CELSIUS, limit=highest - CELSIUS, reason=reason))
+    closing = model.closing_expansion(temperature)
+    if closing is not None and closing < EXPANSION[1]:
+        low, high = EXPANSION
+        notes.append(
+            BUSH_SWELLS(
+                bush=temperature - CELSIUS, closing=closing, clearance=model.radial_clearance, low=low, high=high
+            )
+        )
     lost = _liquid_lost(model, temperature, 0.0 if film is None else film.rise)
     if lost is not None:
         notes.append(lost)

@@ -4,8 +4,8 @@ The contact is `bem.contact.conforming`; films and scenes are of the equivalent 
 of shaft and bush near the load line. A bush with a wall is bonded to its housing, and a layer on it in dry scenes. In
 films it is the half-space on which a cylinder makes a contact of the same width, which is exact for a thick wall and
 for one that vanishes. Wear follows Archard with the whole load and takes off the bush alone. Thermal expansion, which
-may close the clearance of a polymer bush, its creep and its softening with temperature are left out. Verified in
-tests/elements/test_plain_bush.py.
+may close the clearance of a polymer bush and is said where it may, its creep and its softening with temperature are
+left out. Verified in tests/elements/test_plain_bush.py.
 """
 
 from __future__ import annotations
@@ -72,6 +72,10 @@ LARGEST_WEAR_RATE = 1e-10
 """Wear rate [m^2/N], 0.1 mm^3/(N m), beyond which the unit is missing; worn-out bushes have 1e-3 mm^3/(N m)."""
 GLYCOL = 5e-9
 """Pressure-viscosity coefficient of water-glycol [1/Pa], the middle of the usual 4 to 6 1/GPa; not measured."""
+POLYMER = 20e9
+"""Young's modulus [Pa] below which a bush is taken for a polymer; unfilled ones have up to 5 GPa, soft metals 15."""
+EXPANSION = (5e-5, 1.5e-4)
+"""Usual linear expansion coefficients of unfilled polymers [1/K]: PEEK about 5e-5, PTFE about 1.5e-4; from memory."""
 WATERY = 4000.0
 """Heat capacity [J/(kg K)] from which a liquid is taken for water; glycol and water have up to 3900."""
 PressureVelocity = Annotated[float, Dimension("W/m^2", "a pressure times a speed", "0.2 MPa*m/s")]
@@ -245,6 +249,23 @@ class PlainBushModel(ElementModel):
         if found is None or self.liquid_limits is None:
             return found
         return min(max(found, self.liquid_limits[0]), self.liquid_limits[2])
+
+    def closing_expansion(self, temperature: float) -> float | None:
+        """Return the linear expansion coefficient [1/K] that closes the clearance at a bush temperature [K].
+
+        None of a bush without a wall, of a metal, and of one that is not warmer than `ROOM`, at which the clearance is
+        taken to be that of the file.
+        The wall from the radius a to b is held at b, in a housing that does not expand, and along its axis; its bore
+        moves inward by (1 + nu) alpha dT a (b^2 - a^2) / ((1 - 2 nu) b^2 + a^2) (Lame's cylinder in plane strain,
+        derived here), of a thin wall of thickness t by (1 + nu)/(1 - nu) alpha dT t.
+        """
+        bush = self.second.build()
+        if self.wall is None or bush.youngs_modulus > POLYMER or temperature <= ROOM:
+            return None
+        ratio, bore = bush.poissons_ratio, self.bodies.radius
+        outer = bore + self.wall
+        moved = (1 + ratio) * bore * (outer**2 - bore**2) / ((1 - 2 * ratio) * outer**2 + bore**2)
+        return self.radial_clearance / (moved * (temperature - ROOM))
 
     @property
     def surroundings(self) -> float:

@@ -146,6 +146,15 @@ BUSH_OVER_LIMIT = define(
         ),
     },
 )
+BUSH_SWELLS = define(
+    "bush-swells",
+    CAUTION,
+    "Thermal expansion, which is left out, may close the clearance.",
+    "At {bush:.0f} °C a linear expansion coefficient of {closing:.1e} 1/K closes the radial clearance of "
+    "{clearance:si m}, with the wall held in a housing that does not expand; polymers have {low:.0e} to {high:.1e} "
+    "1/K.",
+    "Give the clearance of the warm bush, or take a larger clearance, a thinner wall or less heat.",
+)
 VISCOSITY_FIXED = define(
     "viscosity-fixed",
     CAUTION,

@@ -27,6 +27,7 @@ from bem.notes.elements import (
     BUSH_LEAKS,
     BUSH_LIQUID_LOST,
     BUSH_OVER_LIMIT,
+    BUSH_SWELLS,
     BUSH_SWINGS,
     BUSH_TOUCHES,
     BUSH_WARMER_THAN_OIL,
@@ -73,12 +74,12 @@ def test_heat_of_a_dry_bush_by_hand():
     said = dict(answer(balance_heat(cooled), ()))
     assert said["friction power"].startswith(f"{power:.3g} W")
     assert f"bush {30 + power:.3g} °C" in said["temperatures"]
-    assert codes(answer_notes(cooled, ())) == []
+    assert codes(answer_notes(cooled, ())) == [BUSH_SWELLS.code]
     hot = answer_notes(load_element(DRY), ())
-    assert codes(hot) == [BUSH_OVER_LIMIT.code]
+    assert codes(hot) == [BUSH_OVER_LIMIT.code, BUSH_SWELLS.code]
     assert hot[0].values["value"] == pytest.approx(20 + power / (15 * 15 * 0.02 * 0.02))
     slick = load_element(DRY | {"friction": 0.05, "pv_limit": "0.39 MPa*m/s"})
-    assert codes(answer_notes(slick, ())) == [BUSH_OVER_LIMIT.code]
+    assert codes(answer_notes(slick, ())) == [BUSH_OVER_LIMIT.code, BUSH_SWELLS.code]
     assert answer_notes(slick, ())[0].values["ratio"] == pytest.approx(math.pi / 8 / 0.39)
     assert (
         "limit 100 °C (given)"
@@ -98,6 +99,42 @@ def test_polymers_have_limit_temperatures(bush, limit):
     given = load_element({**element.table, "maximum_temperature": "60 degC"})
     (note,) = [note for note in answer_notes(given, ()) if note.code == BUSH_OVER_LIMIT.code]
     assert "maximum_temperature" in note.headline
+
+
+@pytest.mark.parametrize("wall", [0.3e-3, 2e-3, 10e-3])
+def test_the_expansion_that_closes_the_clearance_is_that_of_finite_differences(wall):
+    """Navier's equation along the radius in plane strain: free bore, outside held, with an error of second order."""
+    warm = 60.0
+    model = load_element(DRY | {"wall": f"{1e3 * wall} mm"}).model
+    found = model.closing_expansion(293.15 + warm)
+    ratio, nodes = model.second.build().poissons_ratio, 401
+    radius, step = np.linspace(model.bodies.radius, model.bodies.radius + wall, nodes, retstep=True)
+    matrix, right = np.zeros((nodes, nodes)), np.zeros(nodes)
+    inner = np.arange(1, nodes - 1)
+    matrix[inner, inner - 1] = 1 / step**2 - 1 / (2 * step * radius[inner])
+    matrix[inner, inner] = -2 / step**2 - 1 / radius[inner] ** 2
+    matrix[inner, inner + 1] = 1 / step**2 + 1 / (2 * step * radius[inner])
+    matrix[0, :3] = (1 - ratio) * np.array([-1.5, 2, -0.5]) / step
+    matrix[0, 0] += ratio / radius[0]
+    right[0] = (1 + ratio) * found * warm
+    matrix[-1, -1] = 1
+    assert np.linalg.solve(matrix, right)[0] == pytest.approx(-model.radial_clearance, rel=1e-4, abs=0)
+    if wall < 1e-3:
+        thin = (1 + ratio) / (1 - ratio) * found * warm * wall
+        assert thin == pytest.approx(model.radial_clearance, rel=0.03, abs=0)
+
+
+def test_thermal_expansion_is_said_of_warm_polymer_walls_alone():
+    warm = {"bulk_temperature": "60 degC"}
+    for change, swells in (
+        ({}, True),
+        ({"clearance": "400 um"}, False),
+        ({"wall": None, "housing": None}, False),
+        ({"bulk_temperature": "20 degC"}, False),
+        ({"second": "phosphor-bronze"}, False),
+    ):
+        table = {key: value for key, value in (DRY | warm | change).items() if value is not None}
+        assert (BUSH_SWELLS.code in codes(answer_notes(load_element(table), ()))) == swells
 
 
 def test_a_lubricated_bush_has_a_film_and_its_friction():
