@@ -94,7 +94,9 @@ def _of_element(name: str) -> tuple[dict[str, list[str]], dict[str, str]]:
 
     import bem
     from bem.campaigns.cited import PROGRAM, catalogue_sources, sources_of
+    from bem.elements import running
     from bem.elements.element import load_element, read_element
+    from bem.elements.plain_bush import PlainBushModel
     from bem.elements.running import operating_places
     from bem.elements.sources import constants_of_element, sources_of_element
     from bem.errors import InputError
@@ -114,4 +116,12 @@ def _of_element(name: str) -> tuple[dict[str, list[str]], dict[str, str]]:
         constants = catalogue_sources(film) | constants
         for key, methods in sources_of(film).items():
             found[key] = list(dict.fromkeys([*found.get(key, []), *methods]))
+    model = element.model
+    if isinstance(model, PlainBushModel) and model.oil is not None and model.rms_roughness is not None:
+        with suppress(InputError):  # the load sharing of kind friction takes the place of the estimate
+            shared = load_scene(element.scene(operating_places(element)[0], "friction"))
+            found = {key: methods for key, methods in found.items() if key not in running.CITES}
+            for key, methods in sources_of(shared).items():
+                found[key] = list(dict.fromkeys([*found.get(key, []), *methods]))
+            constants = catalogue_sources(shared) | constants
     return found, constants | constants_of_element(element)

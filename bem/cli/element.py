@@ -215,8 +215,9 @@ def _rows_of(rows: list[int]) -> str:
 
 def _spelled(name: str, value: float) -> str:
     """A number in the unit of its column's name, "load [N]"."""
+    from bem.elements.cases import JOURNAL
     from bem.plots.report import spelled
-    from bem.quantities import plain_digits, with_unit
+    from bem.quantities import plain_digits, si, with_unit
 
     unit = name.partition(" [")[2].removesuffix("]")
     if unit == "h" and not math.isnan(value):
@@ -227,6 +228,8 @@ def _spelled(name: str, value: float) -> str:
         return with_unit(value, unit)
     if unit == "Pa*m/s":
         return f"{1e-6 * value:.3g} MPa m/s"
+    if name == JOURNAL:
+        return "" if math.isnan(value) else f"about {si(value, 'm', 2)}"
     return "" if math.isnan(value) else spelled(f"x_{unit}" if unit else "x", value)[1]
 
 
@@ -338,6 +341,7 @@ _CASE_HEADS = {
     "thinnest": "thinnest film at",
     "solved_minimum_film [m]": "minimum film thickness",
     "solved_film_over_roughness": "lambda ratio",
+    "journal_bearing_film_estimate [m]": "film as journal bearing (estimate)",
     "viscosity_ratio": "kappa",
     "basic_life [h]": "L10",
     "modified_life [h]": "L10m",

@@ -17,7 +17,7 @@ from pydantic_core import PydanticCustomError
 
 from bem.elements.answer import film_of_bush, likely_power, place_words
 from bem.elements.bearing_life import bearing_life
-from bem.elements.bush_answer import bush_temperature, friction_power_of, wear_life
+from bem.elements.bush_answer import bush_temperature, friction_power_of, journal_of, wear_life
 from bem.elements.element import Element, load_element, read_element
 from bem.elements.gear_pair import GearModel
 from bem.elements.gear_scuffing import scuffing_of
@@ -29,6 +29,9 @@ from bem.errors import InputError
 from bem.kinds.traction.along import columns_of
 from bem.scenes.paths import parse_key, put
 from bem.scenes.values import plain_value
+
+JOURNAL = "journal_bearing_film_estimate [m]"
+"""Column of the estimated film of a journal bearing in place of a film too thick for the model."""
 
 
 def load_cases(source: str | Path, rows: str | Path) -> tuple[Element, ...]:
@@ -133,6 +136,7 @@ def _rubbing(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dic
         "friction_power [W]": [],
         "asperity_load_share": [],
         "bush_temperature [K]": [],
+        JOURNAL: [],
     }
     for case, own in zip(cases, runs, strict=True):
         model = case.model
@@ -143,6 +147,8 @@ def _rubbing(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dic
         found["friction_power [W]"].append(_number(power))
         found["asperity_load_share"].append(math.nan if film is None else film.asperity_share)
         found["bush_temperature [K]"].append(math.nan if power is None else bush_temperature(model, power))
+        journal = None if film is None else journal_of(model, film)
+        found[JOURNAL].append(math.nan if journal is None else journal.minimum_thickness)
     return found
 
 

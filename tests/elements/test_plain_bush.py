@@ -241,7 +241,12 @@ def test_a_film_as_thick_as_that_of_a_journal_bearing_is_outside_the_model():
     assert "journal bearing" in dict(answer(element, runs))["lambda ratio"]
     assert element.columns()["minimum_film [m]"][0] == pytest.approx(runs[0].minimum_film, rel=0.2)
     thin = load_element(WATER | {"thermal": "off"})
-    assert BUSH_FLOATS.code not in codes(answer_notes(thin, run_all(thin)))
+    films = run_all(thin)
+    assert BUSH_FLOATS.code not in codes(answer_notes(thin, films))
+    estimates = columns([element, thin], [runs, films])["journal_bearing_film_estimate [m]"]
+    assert estimates[0] == note.values["journal"]
+    assert math.isnan(estimates[1])
+    assert "journal_bearing_film_estimate [m]" not in columns([thin], [films])
 
 
 def test_cases_of_a_lubricated_bush_are_solved_as_its_answer():
@@ -589,7 +594,10 @@ def test_the_command(tmp_path):
     assert "friction of dry peek: 0.35: between" in cited
     assert "highest temperature of peek: 250 degC" in cited
     assert "Michell" in cited
-    assert "M100" not in bem("cite", "pump.toml").stdout
+    wet = bem("cite", "pump.toml").stdout
+    assert "M100" not in wet
+    assert "load sharing of film and asperities" in wet  # of kind friction, in place of the estimate
+    assert "Zhou" not in wet
     assert "Hertz" not in shown
     (tmp_path / "cases.csv").write_text("name, radial_load [N], speed [rpm]\nlow, 100, 300\nhigh, 500, 100\n")
     cases = bem("element", "pump.toml", "--cases", "cases.csv").stdout
