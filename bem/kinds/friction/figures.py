@@ -103,7 +103,7 @@ def _sharing(run: Any, figure: Figure) -> None:
     film = _curves(run, "minimum_film")[0][1]
     factor, unit = prefix(film, "m")
     _band(lower, speed, film * factor, BLUE, "")
-    lower.set_ylabel(label("minimum film thickness", unit))
+    lower.set_ylabel(label("minimum film thickness\nunder the film's load", unit))
     speed_axis(lower, speed)
     _name_first_curve(run, figure)
 
@@ -253,7 +253,7 @@ FIGURES = (
     ),
     FigureKind(
         "load-sharing",
-        "Load on film and asperities, and minimum film thickness, over speed (first curve).",
+        "Load on film and asperities, and minimum film thickness under the film's load, over speed (first curve).",
         ("speed", "contact_load", "film_load", "minimum_film", "model"),
         _sharing,
         (5.0, 4.6),
