@@ -309,7 +309,7 @@ def test_a_liquid_that_boils_or_freezes_is_noted(bulk, reason):
 def test_water_with_glycol_evaporates_before_it_boils():
     glycol = {"grade": "water-glycol 46", "temperature": "40 degC", "pressure_viscosity": "5 1/GPa"}
     element = load_element(WATER | {"friction": 0.01, "bulk_temperature": "70 degC", "oil": glycol})
-    (note,) = answer_notes(element, ())
+    (note,) = [note for note in answer_notes(element, ()) if note.code != BUSH_SWELLS.code]
     assert "evaporates" in note
     assert note.values["limit"] == pytest.approx(65)
     assumed = load_element(WATER | {"oil": without(glycol, "pressure_viscosity")})
