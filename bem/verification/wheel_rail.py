@@ -215,54 +215,32 @@ def wheel_in_groove() -> list[Curve]:
     return [curve("pressure of cells, highest", "over radius", "Pa", line, np.array(found), highest, 8e-3, reason)]
 
 
-ROLLING_IN_GROOVES = {0.01025: (2.3418e-4, 924 / 1199, 0.2000), 0.01010: (4.5857e-4, 840 / 1569, 0.7412)}
-"""Radius of a groove -> creepage at the bottom of a wheel that rolls without a longitudinal force, share of the cells
-that sticks, and friction work over distance [N], in the same output: the angular velocity over 1 rad/s at 420 mm/s,
-NADH over NCON, and FRIC.POWER over VELOC. Friction 0.3. CONTACT solved its pressures without tractions (one outer
-iteration) and the tractions under these pressures; ours are solved together, which changes the three by up to 1 %."""
-
-
-def rolling_in_groove() -> list[Curve]:
-    """The wheel rolls freely in two grooves: friction turns with the radius across the patch, beside CONTACT."""
-    steel = Material("steel", youngs_modulus=2 * 80e9 * 1.28, poissons_ratio=0.28)
-    grid, found = Grid((73, 39), (0.095833e-3, 0.25e-3)), []
-    for radius, (creepage, _, _) in ROLLING_IN_GROOVES.items():
-        placed = WheelOnRail(circle(0.01, 1), circle(radius, 1), 0.42)
-        point = placed.contact_points[0]
-        rows = rows_on_rail(placed, point, grid.y)
-        surface = CurvedSurface(grid, rows.y, rows.z, rows.angle, (Body(steel), Body(steel)))
-        gap, curvature = gap_along_rail(placed, point, grid), placed.rolling_curvature(point)
-        tried = [0.97 * creepage, 1.03 * creepage]
-        for _ in range(2):  # the force is nearly linear in the creepage, and zero in between
-            rolled = [
-                solve_curved_rolling(
-                    gap,
-                    surface,
-                    point.angle,
-                    Rolling((one, 0.0), 0.0, curvature),
-                    friction=0.3,
-                    load=1e4,
-                    tolerance=1e-6,
-                    slip_tolerance=1e-6,
-                )
-                for one in tried
-            ]
-            if len(tried) == 1:
-                break
-            forces = [float(one.rolling.force[0]) for one in rolled]
-            tried = [float(np.interp(0.0, forces[::-1], tried[::-1]))]
-        free = rolled[0].rolling
-        sticks = free.stick_area / (free.stick_area + free.slip_area)
-        found.append((tried[0], sticks, free.cell_energy / grid.spacing[0]))
-    radii = np.array(list(ROLLING_IN_GROOVES))
-    line = np.column_stack([radii, 0 * radii, 0 * radii])
-    here, there = np.array(found), np.array(list(ROLLING_IN_GROOVES.values()))
-    reason = "half-spaces turned with the surface for conforming bodies, pressures under friction for those without"
-    return [
-        curve("creepage without force", "over radius", "1", line, here[:, 0], there[:, 0], 1.2e-2, reason),
-        curve("share that sticks", "over radius", "1", line, here[:, 1], there[:, 1], 1e-2, reason),
-        curve("friction work of cells", "over radius", "N", line, here[:, 2], there[:, 2], 2.5e-2, reason),
-    ]
+def rolling_on_a_tilted_plane() -> list[Curve]:
+    """Creepage and spin on a flat surface that is tilted by 20 degrees, beside the planar solver."""
+    grid, steel, tilt = Grid((36, 30), (0.33e-3, 0.27e-3)), (Body(STEEL), Body(STEEL)), math.radians(20)
+    gap, creepage, spin = grid.x[:, None] ** 2 / 0.9 + grid.y**2 / 0.6, (8e-4, -3e-4), 0.2
+    pressed = solve_contact(gap, displacement_operator(grid, steel), load=20e3, tolerance=1e-10)
+    planar = solve_rolling(pressed, grid, steel, friction=0.3, creepage=creepage, spin=spin, tolerance=1e-9)
+    rows = math.cos(tilt) * grid.y, math.sin(tilt) * grid.y, np.full(grid.shape[1], tilt)
+    curved = solve_curved_rolling(
+        gap,
+        CurvedSurface(grid, *rows, steel),
+        tilt,
+        Rolling(creepage, spin, 0.0),
+        friction=0.3,
+        load=20e3,
+        tolerance=1e-9,
+        slip_tolerance=1e-9,
+    ).rolling
+    reason = "both solved to 1e-9"
+    middle = np.column_stack([grid.x, 0 * grid.x, 0 * grid.x])
+    found = []
+    for i, name in enumerate(("traction along x", "traction across")):
+        here, there = (one.traction[i, :, grid.shape[1] // 2] for one in (curved, planar))
+        found.append(curve(name, "middle row", "Pa", middle, here, there, 1e-5, reason))
+    place = np.zeros((2, 3))
+    forces = np.array(curved.force), np.array(planar.force)
+    return [*found, curve("creep forces", "along, across", "N", place, *forces, 1e-5, reason)]
 
 
 def gates() -> list[Gate]:
@@ -293,10 +271,10 @@ def gates() -> list[Gate]:
             wheel_in_groove,
         ),
         Gate(
-            "wheel-rail-groove-rolling",
+            "wheel-rail-rolling-tilted-plane",
             "closed_forms",
-            "A wheel rolls freely in conforming grooves, with friction (CONTACT).",
-            rolling_in_groove,
+            "Rolling on the curved surface where it is flat and tilted, by the planar solver.",
+            rolling_on_a_tilted_plane,
         ),
         Gate(
             "wheel-rail-shaft-in-hole",
