@@ -191,7 +191,8 @@ BUSH_TOUCHES = define(
     CAUTION,
     "Surfaces touch: the film is thinner than the roughness (lambda below 1).",
     "",
-    "For your measured surfaces run the scene that `bem element FILE --scene mixed.toml --kind friction` writes.",
+    "For your measured surfaces run the scene that `bem element FILE --scene mixed.toml --kind friction` writes; for a "
+    "row of --cases put its keys in FILE.",
     reasons={
         "solved": "Asperities carry {share:.0%} of the load, for a random ground shaft with the roughness given.",
         "estimated": "By an estimate asperities carry {share:.0%} of the load.",

@@ -102,6 +102,7 @@ MAP_ALTERED = define(
         "seams": Reason(
             "The step where its ends meet along {along} is spread out (Moisan 2011), which changes the heights by "
             "{change:si m} rms ({share:%} of Sq).",
+            'Set mirror = "both" in its surface to keep the heights.',
             headline=_PERIODIC,
         ),
         "seams-large": Reason(

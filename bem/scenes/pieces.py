@@ -111,7 +111,7 @@ def _reported(quantity: str) -> Figure:
     )
 
 
-FOLLOWS_CELL = "it follows the mesh, or was not shown to converge with it: most pieces are one cell or a few cells wide"
+FOLLOWS_CELL = "it follows the mesh, or was not shown to converge with it: many pieces may be only a few cells wide"
 """Reason why a mean by number, and a count, has no error bar."""
 
 

@@ -38,7 +38,8 @@ from bem.notes.elements import (
 from bem.reference_solutions.journal_bearing import journal_film, sommerfeld_number
 from bem.scenes.load import load_scene
 
-WATER = tomllib.loads(element_template("plain-bush")) | {"name": "bush"}
+TEMPLATE = tomllib.loads(element_template("plain-bush")) | {"name": "bush"}
+WATER = {key: value for key, value in TEMPLATE.items() if key != "heat_balance"}
 DRY = {key: value for key, value in WATER.items() if key != "oil"}
 THIN = {"viscosity": "0.653 mPa*s", "pressure_viscosity": "0 1/GPa"}
 DRY_FRICTION = DRY_FRICTIONS["peek"][0]
@@ -263,6 +264,13 @@ def test_cases_of_a_lubricated_bush_are_solved_as_its_answer():
         assert found["solved_film_over_roughness"][row] == own[0].film_ratio
         slid = case.model.radial_load * case.model.sliding_speed
         assert found["friction_coefficient"][row] == pytest.approx(found["friction_power [W]"][row] / slid)
+
+
+def test_the_template_stays_cool():
+    """Its water does not boil, as it would with the usual conductance of still air."""
+    element = balance_heat(load_element(TEMPLATE))
+    assert 293 < element.model.bulk_temperature < 333
+    assert BUSH_LIQUID_LOST.code not in codes(answer_notes(element, run_all(element)))
 
 
 def test_a_bush_warmer_than_its_liquid_is_noted():
@@ -582,7 +590,8 @@ def test_mistakes_are_said_with_what_is_allowed(change, words):
 def test_the_command(tmp_path):
     bem = functools.partial(run_command, cwd=tmp_path)
     assert bem("new", "bushing", "pump.toml").returncode == 0
-    (tmp_path / "dry.toml").write_text((tmp_path / "pump.toml").read_text().partition("\n[oil]")[0])
+    dry = (tmp_path / "pump.toml").read_text().partition("\n[oil]")[0]
+    (tmp_path / "dry.toml").write_text(dry.replace("\nheat_balance", "\n# heat_balance"))
     done = bem("element", "dry.toml", "--table", "all.csv", "--figure", "all.png")
     assert done.returncode == 0, done.stderr
     assert "half-angle 21.0 deg, peak pressure 4.86 MPa" in done.stdout

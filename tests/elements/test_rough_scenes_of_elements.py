@@ -21,7 +21,7 @@ def element_of(name, **changes):
     table = tomllib.loads(element_template("rolling-bearing" if name == "roller" else name))
     table |= {"name": name} | (ROLLERS if name == "roller" else {}) | changes
     if name == "plain-bush":  # a wall is a layer, in which films have no heat: test_plain_bush.py
-        table = {key: value for key, value in table.items() if key not in ("wall", "housing")}
+        table = {key: value for key, value in table.items() if key not in ("wall", "housing", "heat_balance")}
     for body in ("first", "second"):
         if "cast-iron" in table[body]:
             table[body] = {"catalogue": table[body], **CONDUCTS}
