@@ -23,7 +23,7 @@ from bem.elements.contact import CONFORMING, ElementContact
 from bem.elements.gear_pair import GearModel
 from bem.elements.model import Contacts, ElementModel, HeatBalanceScene
 from bem.elements.piston_ring import PistonRingModel
-from bem.elements.plain_bush import HOUSING, PlainBushModel, with_pressure_viscosity
+from bem.elements.plain_bush import HOUSING, PlainBushModel, with_pressure_viscosity, with_temperature
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.rough_scenes import bush_rubbing_scene, bush_scene, conducts, life_scene, mixed_scene, rubbing_scene
 from bem.errors import InputError
@@ -528,7 +528,7 @@ def load_element(source: str | Path | Mapping[str, Any]) -> Element:
         found = show(table.get("element"))
         raise InputError(f"element = {found}: not allowed{nearest(kind, MODELS)}; allowed: {listed}")
     if kind == "plain-bush" and isinstance(table.get("oil"), Mapping):
-        table["oil"] = with_pressure_viscosity(table["oil"])
+        table["oil"] = with_temperature(with_pressure_viscosity(table["oil"]), table)
     try:
         return Element(validate(table, MODELS[kind]), table)
     except InputError as error:  # what is wrong with the whole is said of the element

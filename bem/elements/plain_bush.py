@@ -330,6 +330,19 @@ def with_pressure_viscosity(oil: Mapping[str, Any]) -> Mapping[str, Any]:
     return {**oil, "pressure_viscosity": GLYCOL}
 
 
+def with_temperature(oil: Mapping[str, Any], bush: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return a table of an oil of a bush, where it has none with the bush's temperature or that of its surroundings.
+
+    Film and friction follow these, so that the oil needs no temperature of its own. A given viscosity keeps none.
+    """
+    if oil.get("temperature") is not None or oil.get("viscosity") is not None:
+        return oil
+    balance = bush.get("heat_balance")
+    around = balance.get("ambient") if isinstance(balance, Mapping) else None
+    warm = bush.get("bulk_temperature") if bush.get("bulk_temperature") is not None else around
+    return oil if warm is None else {**oil, "temperature": warm}
+
+
 WORN_IN = 4 / math.pi
 """Peak pressure of a bush that is worn far beyond its clearance, over the mean pressure F/(d L): p is as the cosine of
 the angle, as the depth is that a sinking shaft takes off."""

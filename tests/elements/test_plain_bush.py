@@ -266,6 +266,19 @@ def test_cases_of_a_lubricated_bush_are_solved_as_its_answer():
         assert found["friction_coefficient"][row] == pytest.approx(found["friction_power [W]"][row] / slid)
 
 
+@pytest.mark.parametrize(
+    "change", [{"bulk_temperature": "60 degC"}, {"heat_balance": {"conductance": "0.5 W/K", "ambient": "60 degC"}}]
+)
+def test_the_oil_needs_no_temperature_beside_that_of_bush_or_surroundings(change):
+    own, none = WATER | {"thermal": "off"}, {"grade": "water"}
+    given = load_element(own | change | {"oil": none | {"temperature": "60 degC"}})
+    left_out = load_element(own | change | {"oil": none})
+    assert left_out.model.film_oil == given.model.film_oil
+    assert left_out.model.surroundings == given.model.surroundings
+    with pytest.raises(InputError, match="without temperature"):
+        load_element(own | {"oil": none})
+
+
 def test_the_template_stays_cool():
     """Its water does not boil, as it would with the usual conductance of still air."""
     element = balance_heat(load_element(TEMPLATE))
