@@ -202,8 +202,8 @@ def test_the_run_says_which_figures_follow_the_mesh_and_what_its_bars_are(tmp_pa
     run = run_scene({**WEAR, "repetitions": 2}, tmp_path / "run", figures=True)
     notes = " ".join(note["text"] for note in run.summary["notes"])
     assert "No error bars for" in notes
-    assert "follows the mesh" in notes
+    assert "They follow the mesh" in notes
     assert "over 2 repetitions alone" in notes
     assert run.summary["number_mean_equivalent_radius_nm_error"] is None
     assert run.summary["Sq_final_nm_error"] == pytest.approx(run.summary["Sq_final_nm_spread"] / np.sqrt(2))
-    assert "follows the mesh" in (tmp_path / "run" / "report.html").read_text()
+    assert "They follow the mesh" in (tmp_path / "run" / "report.html").read_text()
