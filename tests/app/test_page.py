@@ -252,7 +252,7 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
         tab.wait("document.querySelector('[data-plan]')")
         if number == "002":
             tab.type("contact.load", "0.2 N")
-            tab.wait_text("0.2 N")
+            tab.wait_text("200 mN")  # in the plan
         tab.click("[data-action=run]")
         tab.wait(f"location.pathname === '/run/contact-{number}'")
         tab.wait("document.querySelector('[data-state]').innerText === 'converged'")
