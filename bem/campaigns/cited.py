@@ -42,7 +42,6 @@ _OF_MATERIALS = {
         "ting1996": "surface of an anisotropic half-space",
         "willis1966": "contact of anisotropic bodies",
     },
-    "relaxation": {"lee1960": "contact of bodies that relax", "ting1966": "contact of bodies that relax"},
     "surface_tension": {"hajji1978": "surface tension of the half-space", "long2013": "contact with surface tension"},
 }
 _PARAMETERS = {"iso25178": "roughness parameters (Sq, Sdq, Sk and the like)"}

@@ -53,7 +53,7 @@ class MpiRanks:
         self.communicator.Alltoallv([blocks, sent], [out, received])
         return out
 
-    def share(self, value: Any) -> Any:
+    def broadcast(self, value: Any) -> Any:
         """See `bem.distributed.ranks.Ranks`."""
         return self.communicator.bcast(value, root=0)
 

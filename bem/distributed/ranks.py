@@ -49,8 +49,8 @@ class Ranks(Protocol):
         blocks : one-dimensional, `sent[j]` entries for rank j. received : number of entries from each rank.
         """
 
-    def share(self, value: _Value) -> _Value:
-        """Return the value of rank 0."""
+    def broadcast(self, value: _Value) -> _Value:
+        """Return the value of rank 0 on every rank."""
 
     def scatter_rows(self, field: Array | None, rows: Array) -> None:
         """Write each rank's rows of a field to `rows`; only rank 0 has the field."""
@@ -77,7 +77,7 @@ class OneRank:
         self.count.transposes += 1
         return blocks
 
-    def share(self, value: _Value) -> _Value:
+    def broadcast(self, value: _Value) -> _Value:
         """See `Ranks`."""
         return value
 
@@ -122,7 +122,7 @@ def computed_on_first(ranks: Ranks, function: Callable[[], _Value]) -> _Value:
             value = function()
         except Exception as error:
             failure = error
-    value, failure = ranks.share((value, failure))
+    value, failure = ranks.broadcast((value, failure))
     if failure is not None:
         raise failure
     return value

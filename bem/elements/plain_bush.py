@@ -53,8 +53,14 @@ bearing block, the lower ends of the usual ranges 15 to 20 of both (DIN 31652, f
 SERVICE_TEMPERATURES = {
     "peek": (523.15, "continuous use of PEEK: W. Hufenbach, K. Kunze and J. Bijwe (2003), introduction"),
     "ptfe": (533.15, "working temperature of PTFE: Mechanical Engineer's Data Handbook; it melts at 327 °C"),
-    "pom": (373.15, "continuous use of POM, about 100 °C by suppliers' tables; it melts at 162 to 175 °C"),
-    "pa66": (373.15, "continuous use of PA 66, middle of 80 to 120 °C of suppliers' tables; it melts at 260 °C"),
+    "pom": (
+        373.15,
+        "continuous use of POM, about 100 °C (from memory); it melts at 162 to 175 °C",
+    ),
+    "pa66": (
+        373.15,
+        "continuous use of PA 66, middle of 80 (from memory) and 120 °C; it melts at 260 °C",
+    ),
 }
 """Highest temperature of a bush by material of the catalogue [K], with its source.
 

@@ -41,7 +41,7 @@ MOST_TURNS = 40
 
 @dataclass(frozen=True)
 class Rolling:
-    """How the first body moves against the second.
+    """Motion of the first body against the second, as if both were rigid.
 
     Attributes
     ----------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, get_args
 
 from pydantic import Field, model_validator
 
@@ -51,7 +51,7 @@ class ProfileScene(Table):
     def short_forms(cls, table: dict[str, Any]) -> None:
         """Add the name of a profile alone."""
         super().short_forms(table)
-        names = {"enum": list(ProfileName.__args__)}  # type: ignore[attr-defined]
+        names = {"enum": list(get_args(ProfileName))}
         whole = dict(table)
         table.clear()
         table |= {"anyOf": [names, whole], "description": whole.get("description")}

@@ -6,7 +6,6 @@ Verified in tests/scenes/test_wheel_rail.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
@@ -76,7 +75,6 @@ def fields(scene: Any, grid: Grid, contact: ContactSolution) -> dict[str, Any]:
     touched: NDArray[np.bool_] = np.asarray(contact.pressure > 0)
     wheel_y, wheel_z = _section_of_wheel(placed, first)
     rail_y, rail_z = placed.rail.at(placed.rail.samples)
-    of: Callable[[str], FloatArray] = lambda name: np.array([getattr(one, name) for one in points])  # noqa: E731
     return {
         "contact_angle": first.angle,
         "contact_position": first.y,
@@ -85,10 +83,10 @@ def fields(scene: Any, grid: Grid, contact: ContactSolution) -> dict[str, Any]:
         "contact_width": grid.spacing[1] * _extent(np.any(touched, axis=0)),
         "second_contact_gap": None if second is None else second.gap,
         "second_contact_angle": None if second is None else second.angle,
-        "contact_point_y": of("y"),
-        "contact_point_z": of("z"),
-        "contact_point_angle": of("angle"),
-        "contact_point_gap": of("gap"),
+        "contact_point_y": np.array([point.y for point in points]),
+        "contact_point_z": np.array([point.z for point in points]),
+        "contact_point_angle": np.array([point.angle for point in points]),
+        "contact_point_gap": np.array([point.gap for point in points]),
         "row_y": first.y + rows.y,
         "row_z": first.z + rows.z,
         "row_angle": rows.angle,

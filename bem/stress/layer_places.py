@@ -59,26 +59,26 @@ def layer_places(
     highest, points = maxima.highest, maxima.of_points
     medium = np.array([body.medium_at(depth) for depth in highest.depths.tolist()])
 
-    def place(name: str, number: int, plane: FloatArray) -> None:
+    def store_place(name: str, number: int, plane: FloatArray) -> None:
         ix, iy = highest_point(plane)
         found[f"{name}_x"][number], found[f"{name}_y"][number] = grid.x[ix], grid.y[iy]
 
     for number, interface in enumerate(body.interfaces):
         k = int(np.argmin(np.abs(highest.depths - interface)))
-        place("interface_max_shear", number, np.hypot(stress[3, k], stress[4, k]))
+        store_place("interface_max_shear", number, np.hypot(stress[3, k], stress[4, k]))
         if highest.tension[k] > 0 and abs(highest.tension[k] - points.tension[k]) <= _SAME * highest.tension[k]:
-            place("interface_max_tension", number, stress[2, k])
+            store_place("interface_max_tension", number, stress[2, k])
         own = np.flatnonzero(medium == number)
         if not own.size:
             continue
         k = int(own[np.argmax(highest.von_mises[own])])
         found["layer_max_von_mises_depth"][number] = highest.depths[k]
-        place("layer_max_von_mises", number, von_mises[k])
+        store_place("layer_max_von_mises", number, von_mises[k])
         k = int(own[np.argmax(highest.principal[own])])
         if highest.principal[k] > 0:
             found["layer_max_tension_depth"][number] = highest.depths[k]
             if highest.principal[k] - points.principal[k] <= _SAME * highest.principal[k]:
-                place("layer_max_tension", number, highest_principal(stress[:, k]))
+                store_place("layer_max_tension", number, highest_principal(stress[:, k]))
     return LayerPlaces(**found)
 
 

@@ -44,7 +44,7 @@ class ThreadRanks:
         assert [part.size for part in mine] == received
         return np.concatenate(mine)
 
-    def share(self, value: Any) -> Any:
+    def broadcast(self, value: Any) -> Any:
         return self._all(value)[0]
 
     def scatter_rows(self, field: np.ndarray | None, rows: np.ndarray) -> None:

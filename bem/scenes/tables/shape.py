@@ -105,7 +105,7 @@ class ShapeScene(Table):
             try:
                 _ = self.placed().contact_points
             except InputError as error:
-                raise problem(*_told(error.messages[0])) from None
+                raise problem(*_mistake_and_remedy(error.messages[0])) from None
         return self
 
     @property
@@ -145,7 +145,7 @@ def _placed(*values: Any) -> WheelOnRail:
     return WheelOnRail(*values)
 
 
-def _told(message: str) -> tuple[str, str]:
-    """Return what is wrong and what is allowed of a message."""
+def _mistake_and_remedy(message: str) -> tuple[str, str]:
+    """Return what a message says is wrong, and what it says is allowed."""
     what, _, allowed = message.partition("; allowed: ")
     return what, allowed or "profiles that touch"
