@@ -17,6 +17,7 @@ from bem.plots.draw import Drawn
 from bem.plots.labels import prefix
 from bem.plots.tables import (
     ABOUT_THE_RUN,
+    HARDNESS,
     accuracy_tables,
     figure_tables,
     input_share_tables,
@@ -26,6 +27,7 @@ from bem.plots.tables import (
     is_rounding,
     is_second_name,
     is_size_of_no_particles,
+    limited_by_hardness,
     name_and_unit,
     origin_table,
     reported_mean,
@@ -125,8 +127,8 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     text += reported_mean(name, summary) + window_of(name, summary)
     if is_size_of_no_particles(name, value):
         return text, "-"
-    if name == "max_pressure_Pa" and _reaches_hardness(summary):
-        return text, f"{shown} (the hardness)"
+    if all(limited_by_hardness(name, summary)):
+        return text, f"{shown} {HARDNESS}"
     if not isinstance(error, float) or not isinstance(value, int | float) or isinstance(value, bool):
         none = f"{name}_error" in summary and error is None and value is not None
         return text, f"{shown} (no error bar)" if none else shown
@@ -143,12 +145,6 @@ def _in_unit_of_error(name: str, value: float, error: float) -> str:
     factor, unit = (100.0, "%") if text.endswith(" fraction") else prefix([value, error], unit)
     number = "0" if is_rounding(value, error) else f"{value * factor:.4g}"
     return " ".join(filter(None, [number, within(name, value, error, factor), unit]))
-
-
-def _reaches_hardness(summary: Mapping[str, Any]) -> bool:
-    """Return True if a part of the contact is at the hardness, which then is the maximum pressure."""
-    plastic = _only(summary.get("plastic_area_fraction"))
-    return isinstance(plastic, float) and plastic > 0
 
 
 def _only(value: Any) -> Any:

@@ -14,7 +14,7 @@ from matplotlib.ticker import MaxNLocator
 from bem.notes import OUTSIDE
 from bem.plots.labels import in_celsius, key_words, largest_of
 from bem.plots.style import label, logarithmic_axis, prefix, said_above, style
-from bem.plots.tables import name_and_unit
+from bem.plots.tables import LIMITED_PRESSURE, PLASTIC_AREA, name_and_unit
 from bem.quantities import counted
 from bem.scenes.context import Variable
 
@@ -154,6 +154,8 @@ def _panel(
         if bars is not None and (bars.dimensions, bars.units) == (variable.dimensions, variable.units)
         else None
     )
+    if errors is not None and errors.dtype.kind == "f" and name == LIMITED_PRESSURE and PLASTIC_AREA in variables:
+        errors = np.where(variables[PLASTIC_AREA].values > 0, np.nan, errors)
     low = high = values
     for chance in (name for name in _CHANCE if name in dimensions and len(dimensions) > 1):
         axis = dimensions.index(chance)

@@ -145,6 +145,28 @@ _COUNTED = {
 }
 """Figures of whole cells, and the estimate of the same quantity."""
 
+
+HARDNESS = "(the hardness)"
+"""Words behind a maximum pressure that the hardness limits, in the place of an error bar."""
+LIMITED_PRESSURE, PLASTIC_AREA = "max_pressure_Pa", "plastic_area_fraction"
+"""The figure that the hardness limits, and the one that says whether it does."""
+
+
+def limited_by_hardness(name: str, summary: Mapping[str, Any]) -> list[bool]:
+    """Return for each value of a figure whether it is a maximum pressure limited by the hardness.
+
+    Where part of the contact is at the hardness, the maximum pressure equals it by construction, without an error.
+    """
+    values, plastic = (_as_list(summary.get(key)) for key in (name, PLASTIC_AREA))
+    if name != LIMITED_PRESSURE or len(values) != len(plastic):
+        return [False] * len(values)
+    return [isinstance(area, int | float) and area > 0 for area in plastic]
+
+
+def _as_list(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else [value]
+
+
 _SHARES = ("fraction", "share")
 _WITHOUT_SIGN = frozenset(
     (
@@ -277,7 +299,10 @@ def origin_table(summary: Mapping[str, Any], names: Sequence[str]) -> list[Figur
     for name in (n for n in names if parts[n]):
         words, unit = name_and_unit(name)
         values = [np.ravel(np.array(v, dtype=np.float64)) for v in (summary[name], errors[name])]
-        if values[0].shape != values[1].shape or not np.isfinite(values[1]).any():
+        if values[0].shape != values[1].shape:
+            continue
+        values[1] = np.where(limited_by_hardness(name, summary), np.nan, values[1])
+        if not np.isfinite(values[1]).any():
             continue
         at = int(np.nanargmax(values[1]))
         shown = [values[0][at], values[1][at], *(np.ravel(parts[name].get(origin, np.nan)) for origin in origins)]
@@ -417,6 +442,7 @@ def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str, colum
             bars=f"{name}{_ERROR}" in summary,
             scatters=scatters_of(name, summary),
             mean=reported_mean(name, summary) + window_of(name, summary),
+            limited=limited_by_hardness(name, summary),
         )
         for name in names
         if name not in leading and name not in varied and name not in repeated
@@ -483,10 +509,12 @@ def _column(
     bars: bool = False,
     scatters: Mapping[str, Any] | None = None,
     mean: str = "",
+    limited: Sequence[bool] = (),
 ) -> tuple[str, list[str]]:
     """Head with its unit, and the values in it; not-a-number and nothing are a dash.
 
-    scatters : of each value, by `SCATTERS`. mean : words behind the name, of `reported_mean`.
+    scatters : of each value, by `SCATTERS`. mean : words behind the name, of `reported_mean`. limited : of each value,
+    as `limited_by_hardness` gives them.
     """
     words, unit = name_and_unit(name)
     words += mean
@@ -499,6 +527,9 @@ def _column(
     if words.endswith(" fraction"):
         factor, unit = 100.0, "%"
     cells = [_cell(value, factor) for value in values]
+    if any(limited):
+        spread = [None if at else s for at, s in zip(limited, spread or [None] * len(values), strict=True)]
+        cells = [f"{cell} {HARDNESS}" if at else cell for at, cell in zip(limited, cells, strict=True)]
     if isinstance(spread, list) and len(spread) == len(values):
         cells = [
             cell
@@ -563,7 +594,7 @@ def _cases(title: str, cases: Sequence[Mapping[str, Any]], known: Mapping[str, A
         columns = [
             _varied(k, v, varied[k])
             if k in varied
-            else _column(k, v, _beside(k, table), scatters=scatters_of(k, table))
+            else _column(k, v, _beside(k, table), scatters=scatters_of(k, table), limited=limited_by_hardness(k, table))
             for k, v in shown.items()
         ]
         rows = tuple(zip(*(cells for _, cells in columns), strict=True))

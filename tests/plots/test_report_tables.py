@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from bem.plots.report import spelled, summary_rows, with_error, write_report
-from bem.plots.tables import figure_tables, name_and_unit, summary_of_points
+from bem.plots.tables import figure_tables, name_and_unit, origin_table, summary_of_points
 from bem.scenes import get_kind
 from bem.scenes.records import UNITS, figures
 
@@ -279,6 +279,23 @@ def test_the_hardness_is_named_where_it_is_the_maximum_pressure():
     assert with_error("max_pressure_Pa", capped) == ("max pressure", "7 GPa (the hardness)")
     below = {"max_pressure_Pa": 6.9e9, "max_pressure_Pa_error": 2e7, "plastic_area_fraction": 0.0}
     assert with_error("max_pressure_Pa", below) == ("max pressure", "6.9 ± 0.02 GPa")
+
+
+def test_tables_give_no_error_of_a_pressure_at_the_hardness():
+    """Tables of loads said "7 ± 0.059" where a single run says that it is the hardness."""
+    capped = {
+        "load_N": [1.0, 2.0, 3.0],
+        "max_pressure_Pa": [6.5e9, 7e9, 7e9],
+        "max_pressure_Pa_error": [1e8, 5.9e7, 120.0],
+        "max_pressure_Pa_error_grid": [1e8, 5.9e7, 0.0],
+        "plastic_area_fraction": [0.0, 1e-4, 1e-3],
+    }
+    (table,) = figure_tables(capped, ["load_N", "max_pressure_Pa"])
+    assert [row[1] for row in table.rows] == ["6.5 ± 0.1", "7 (the hardness)", "7 (the hardness)"]
+    (origins,) = origin_table(capped, ["max_pressure_Pa"])
+    assert origins.rows[0][1:] == ("6.5", "0.1", "0.1")
+    highest = {name: values[2] for name, values in capped.items()}
+    assert origin_table(highest, ["max_pressure_Pa"]) == []
 
 
 def test_an_error_below_a_millionth_is_left_out():

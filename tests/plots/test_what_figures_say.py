@@ -348,6 +348,23 @@ def test_rounding_errors_of_a_component_get_no_panel():
         assert len(figure.axes) == panels
 
 
+def test_a_pressure_at_the_hardness_has_no_bar_in_the_figure_of_a_sweep():
+    def over_load(values):
+        return Variable(("load",), np.array(values), "1", "values")
+
+    figure = Figure()
+    pressures = {
+        "load": Variable(("load",), np.array([1.0, 2.0, 3.0]), "N", "load"),
+        "max_pressure_Pa": over_load([6.5e9, 7e9, 7e9]),
+        "max_pressure_Pa_error": over_load([1e8, 5.9e7, 120.0]),
+        "plastic_area_fraction": over_load([0.0, 1e-4, 1e-3]),
+    }
+    fill(figure, pressures, {"load": "list"}, ("max_pressure_Pa",))
+    (bars,) = (item for item in figure.axes[0].collections if hasattr(item, "get_segments"))
+    heights = [segment[1, 1] - segment[0, 1] for segment in bars.get_segments()]
+    assert [height > 0 for height in heights] == [True, False, False]
+
+
 def test_a_panel_that_leaves_lines_out_says_how_many():
     for count in (8, 12):
         load = Variable(("load",), np.arange(1.0, 3.0), "N", "load")
