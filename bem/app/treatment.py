@@ -98,7 +98,7 @@ def _functional(heights: FloatArray, grid: Grid) -> list[tuple[str, str]]:
     curve = material_ratio(heights)
     figures = [(name, spelled(f"{name}_m", getattr(curve, name))[1]) for name in ("Sk", "Spk", "Svk")]
     fit = self_affine_fit_of_map(heights, grid.spacing)
-    if fit is not None and 0 < fit.hurst < 1:
+    if fit is not None and fit.is_self_affine:
         figures.append(("Hurst exponent", f"{fit.hurst:.2f} ± {fit.hurst_error:.2f}"))
     return figures
 

@@ -396,13 +396,13 @@ def _functional_rows(surface: Surface) -> list[tuple[str, str]]:
     if fit is not None:
         decades = f"rms misfit {fit.misfit:.2f} decades"
         between = f"{si(fit.shortest_wavelength, 'm', digits=3)} to {si(fit.longest_wavelength, 'm', digits=3)}"
-        if 0 < fit.hurst < 1:
+        if fit.is_self_affine:
             rows.append(("Hurst exponent", f"{fit.hurst:.2f} ± {fit.hurst_error:.2f} ({between}; {decades})"))
+            if math.isfinite(fit.rolloff_wavelength):
+                rows.append(("roll-off wavelength", si(fit.rolloff_wavelength, "m", digits=3)))
         else:
-            slope = -2 * (1 + fit.hurst)
-            rows.append(("spectrum", f"not self-affine: falls with wavenumber to the power {slope:.1f} ({between})"))
-        if math.isfinite(fit.rolloff_wavelength):
-            rows.append(("roll-off wavelength", si(fit.rolloff_wavelength, "m", digits=3)))
+            how = "falls more steeply" if fit.hurst >= 1 else "is flatter"
+            rows.append(("spectrum", f"no power law of self-affine surfaces, q^-4 to q^-2: it {how} (q: wavenumber)"))
     return rows
 
 

@@ -86,9 +86,12 @@ def draw_surface(surface: Surface, path: Path, *, periodic: tuple[bool, bool] = 
             seen = spectrum.density > 1e-20 * spectrum.density.max()
             spectrum_axes.loglog(spectrum.wavenumber[seen] * 1e-6, spectrum.density[seen] * 1e24, color=BLUE)
             fit = self_affine_fit_of_map(heights, surface.spacing, periodic=periodic)
-            if fit is not None:
+            if fit is not None and not fit.is_self_affine:
+                words = "no power law of self-affine surfaces"
+                spectrum_axes.text(1.0, 1.01, words, transform=spectrum_axes.transAxes, ha="right", va="bottom")
+            elif fit is not None:
                 q = spectrum.wavenumber[spectrum.wavenumber <= 2 * np.pi / fit.shortest_wavelength * (1 + 1e-9)]
-                name = f"H = {fit.hurst:.2f} ± {fit.hurst_error:.2f}" if 0 < fit.hurst < 1 else "not self-affine"
+                name = f"H = {fit.hurst:.2f} ± {fit.hurst_error:.2f}"
                 spectrum_axes.loglog(q * 1e-6, fit.at(q) * 1e24, "--", color=VERMILION, linewidth=1.0, label=name)
                 spectrum_axes.legend()
             spectrum_axes.set_xlabel("wavenumber (rad/µm)")
@@ -139,7 +142,7 @@ def draw_measurements(surfaces: Sequence[Surface], names: Sequence[str], path: P
                 label=words,
             )
             fit = self_affine_fit_of_map(surface.heights, surface.spacing, periodic=periodic)
-            if fit is not None and 0 < fit.hurst < 1:
+            if fit is not None and fit.is_self_affine:
                 exponents.append(fit.hurst)
         known = np.isfinite(mean.scatter)
         q, density, spread = mean.wavenumber[known] * 1e-6, mean.density[known] * 1e24, np.exp(mean.scatter[known])

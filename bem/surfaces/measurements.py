@@ -44,8 +44,8 @@ def finite_size_of(surface: Surface) -> FiniteSizeError:
 def parameters_of(surface: Surface) -> dict[str, float]:
     """Return all parameters of a map by name, in SI units: heights, material ratio, spectrum, asperities.
 
-    Names of the spectrum's fit begin with `spectrum_`, those of asperities with `asperity_`; standard errors by the
-    finite size of the map end in `_finite_size_error`.
+    Names of the spectrum's fit begin with `spectrum_`, nan where it is not self-affine; those of asperities with
+    `asperity_`; standard errors by the finite size of the map end in `_finite_size_error`.
     """
     periodic = periodic_axes(surface)
     values = dataclasses.asdict(describe_surface(surface, periodic=periodic))
@@ -56,7 +56,10 @@ def parameters_of(surface: Surface) -> dict[str, float]:
     values |= {name: getattr(curve, name) for name in ("Sk", "Spk", "Svk", "Smr1", "Smr2")}
     fit = self_affine_fit_of_map(surface.heights, surface.spacing, periodic=periodic)
     if fit is not None:
-        values |= {f"spectrum_{name}": value for name, value in dataclasses.asdict(fit).items()}
+        values |= {
+            f"spectrum_{name}": value if fit.is_self_affine else math.nan
+            for name, value in dataclasses.asdict(fit).items()
+        }
     if min(surface.shape) >= 3:
         asperities = describe_asperities(surface, periodic=periodic)
         values |= {f"asperity_{name}": value for name, value in dataclasses.asdict(asperities).items()}
@@ -128,8 +131,6 @@ class Measurements:
 def describe_measurements(surfaces: Sequence[Surface]) -> Measurements:
     """Describe several measurements of one surface: every parameter with its scatter, and the averaged spectrum.
 
-    Maps whose spectrum is not self-affine (a Hurst exponent outside 0 to 1) have no parameters of its fit.
-
     Parameters
     ----------
     surfaces : two or more maps; cells and sizes may differ.
@@ -140,7 +141,7 @@ def describe_measurements(surfaces: Sequence[Surface]) -> Measurements:
     """
     if len(surfaces) < 2:
         raise InputError(f"describe_measurements: {len(surfaces)} map; give two or more")
-    found = [_of_self_affine(parameters_of(surface)) for surface in surfaces]
+    found = [parameters_of(surface) for surface in surfaces]
     names = dict.fromkeys(name for one in found for name in one)
     parameters = {}
     for name in names:
@@ -148,13 +149,6 @@ def describe_measurements(surfaces: Sequence[Surface]) -> Measurements:
         finite = math.sqrt(float(np.mean(np.square(errors))))
         parameters[name] = ParameterScatter(tuple(one.get(name, math.nan) for one in found), finite)
     return Measurements(parameters, mean_spectrum(surfaces))
-
-
-def _of_self_affine(parameters: dict[str, float]) -> dict[str, float]:
-    """Return the parameters of a map, those of the fit to its spectrum as nan where it falls as no self-affine one."""
-    if 0 < parameters.get("spectrum_hurst", 0.5) < 1:
-        return parameters
-    return {name: math.nan if name.startswith("spectrum_") else value for name, value in parameters.items()}
 
 
 def mean_spectrum(surfaces: Sequence[Surface]) -> MeanSpectrum:

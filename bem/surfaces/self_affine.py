@@ -45,6 +45,14 @@ class SelfAffineFit:
     misfit: float
     density: float
 
+    @property
+    def is_self_affine(self) -> bool:
+        """Whether the spectrum falls by a power from -2 to -4: a Hurst exponent between 0 and 1.
+
+        Gaussian autocorrelations and filters leave steeper spectra, which are no power law, white noise a flat one.
+        """
+        return 0 < self.hurst < 1
+
     def at(self, wavenumber: FloatArray) -> FloatArray:
         """Return the fitted density [m^4] at wavenumbers [rad/m]."""
         bend = 2 * math.pi / self.longest_wavelength

@@ -27,6 +27,23 @@ def call(monkeypatch, capsys):
 GENERATE = ("--cells", "64", "--spacing", "100 nm", "--rms-height", "50 nm", "--seed", "3")
 
 
+def test_a_spectrum_without_power_law_has_no_roll_off(call, tmp_path):
+    """A Gaussian autocorrelation falls faster than any power: its fit of q^-18 had a roll-off wavelength beside it."""
+    file = tmp_path / "a.npz"
+    call("surface", "generate", file, *GENERATE, "--correlation-length", "0.5 um")
+    _, out, _ = call("surface", "describe", file)
+    assert "no power law" in out
+    assert "roll-off" not in out
+    assert "Hurst" not in out
+    _, out, _ = call("surface", "describe", file, "--json")
+    described = json.loads(out)
+    assert {described[f"spectrum_{name}"] for name in ("hurst", "rolloff_wavelength", "density")} == {None}
+    call("surface", "generate", file, *GENERATE, "--hurst", "0.8", "--rolloff-wavelength", "2 um")
+    _, out, _ = call("surface", "describe", file)
+    assert "roll-off wavelength" in out
+    assert "Hurst exponent" in out
+
+
 def test_generate_describe_plot(call, tmp_path):
     file = tmp_path / "a.npz"
     code, out, err = call("surface", "generate", file, *GENERATE, "--correlation-length", "0.5 um", "--kurtosis", "4")
