@@ -15,13 +15,9 @@ from typing import Any
 
 from bem.notes import Note, as_note
 from bem.notes.general import VALUE_UNUSUAL
+from bem.physical_constants import ATOM, ELECTRON_VOLT, ZERO_CELSIUS
 from bem.quantities import with_unit
 
-ATOM = 2e-10
-"""Distance of neighbouring atoms in a metal [m]."""
-ABSOLUTE_ZERO = -273.15
-ELECTRON_VOLT = 1.602176634e-19
-"""[J]."""
 SOFTEST, STIFFEST = 1e3, 1.3e12
 """Young's moduli [Pa] beyond which no solid is known: gels, and above diamond; Ashby, *Materials Selection in
 Mechanical Design*, chart of E."""
@@ -88,7 +84,7 @@ class UsualRange:
         if not self.unit:
             return ""
         if self.unit == "K":
-            likely = "degC" if self.contains(value - ABSOLUTE_ZERO) else None
+            likely = "degC" if self.contains(value + ZERO_CELSIUS) else None
         else:
             likely = next((unit for unit, factor in self.meant if self.contains(value * factor)), None)
         if likely is None:

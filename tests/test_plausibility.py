@@ -27,7 +27,8 @@ from bem import (
 from bem.elements.element import load_element
 from bem.errors import Status
 from bem.notes import OUTSIDE, outside
-from bem.plausibility import ARGUMENT, BY_KEY, ELECTRON_VOLT, RANGES, notes_on, notes_on_arguments, range_of_key
+from bem.physical_constants import ELECTRON_VOLT
+from bem.plausibility import ARGUMENT, BY_KEY, RANGES, notes_on, notes_on_arguments, range_of_key
 from bem.runs import plan_scene, run_scene
 from bem.scenes import library
 from bem.scenes.checks import SCENE_CHECKS, examine, scene_warnings

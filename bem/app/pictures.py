@@ -10,17 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.plots.labels import (
-    FEWEST_CELLS,
-    ZERO_CELSIUS,
-    beyond_ends,
-    colour_ends,
-    in_celsius,
-    key_words,
-    label,
-    prefix,
-    uniform_value,
-)
+from bem.physical_constants import ZERO_CELSIUS
+from bem.plots.labels import FEWEST_CELLS, beyond_ends, colour_ends, in_celsius, key_words, label, prefix, uniform_value
 from bem.plots.tables import is_error, is_list, name_and_unit, varied_keys
 from bem.quantities import with_signs
 from bem.results.arrays import Arrays

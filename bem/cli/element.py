@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from bem.physical_constants import ZERO_CELSIUS
+
 if TYPE_CHECKING:
     from bem.elements.contact import ElementContact
     from bem.elements.element import Element
@@ -223,7 +225,7 @@ def _spelled(name: str, value: float) -> str:
     if unit == "h" and not math.isnan(value):
         return f"{plain_digits(value, 3)} h"
     if unit == "K":
-        return "" if math.isnan(value) else f"{value - 273.15:.3g} °C"
+        return "" if math.isnan(value) else f"{value - ZERO_CELSIUS:.3g} °C"
     if unit == "m/s":
         return with_unit(value, unit)
     if unit == "Pa*m/s":
@@ -315,7 +317,7 @@ def _unit(key: str, values: Sequence[float]) -> tuple[str, Callable[[float], str
 
     unit = key.partition(" [")[2].removesuffix("]")
     if unit == "K" and "flash" not in key:
-        return "°C", lambda value: f"{value - 273.15:.3g}"
+        return "°C", lambda value: f"{value - ZERO_CELSIUS:.3g}"
     known = [value for value in values if not math.isnan(value)]
     factor, shown = prefix(known, unit)
     return with_signs(shown), lambda value: f"{value * factor:.3g}"

@@ -27,18 +27,13 @@ from bem.elements.contact import ElementContact
 from bem.elements.element import Element
 from bem.elements.element_wear import particles_per_hour, wear_per_hour, worn_volume_rate
 from bem.elements.gear_pair import GearModel
-from bem.elements.gear_scuffing import (
-    CELSIUS,
-    estimated_bulk,
-    friction_of_gear_tests,
-    scuffing_of,
-    sliding_power,
-)
+from bem.elements.gear_scuffing import estimated_bulk, friction_of_gear_tests, scuffing_of, sliding_power
 from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.running import Running, columns, run_all
 from bem.notes import Note
 from bem.notes.note import percent
+from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import plain_digits, with_unit
 
 Rows = tuple[tuple[str, str], ...]
@@ -353,8 +348,8 @@ def _marked(element: Element, runs: Sequence[Running]) -> list[tuple[str, str]]:
         said = [f"minimum film {with_unit(one.minimum_film, 'm')}"]
         said += [] if one.film_ratio is None else [f"lambda {one.film_ratio:.3g}"]
         said.append(f"film friction {abs(one.friction):.2g}")
-        said += [] if one.oil is None else [f"oil {one.oil - CELSIUS:.3g} °C"]
-        said += [] if one.surface is None else [f"surface {one.surface - CELSIUS:.3g} °C"]
+        said += [] if one.oil is None else [f"oil {one.oil - ZERO_CELSIUS:.3g} °C"]
+        said += [] if one.surface is None else [f"surface {one.surface - ZERO_CELSIUS:.3g} °C"]
         exact = abs(one.contact.place - place) < _AT
         rows.append((f"at {mark}" if exact else f"near {mark}", ", ".join(said)))
     return rows
@@ -420,16 +415,16 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
     assert model.oil is not None
     if model.oil.temperature is None:
         return "not known: give oil.temperature"
-    oil = model.oil.temperature - CELSIUS
+    oil = model.oil.temperature - ZERO_CELSIUS
     said = f"oil {oil:.4g} °C, "
     if model.bulk_temperature is None:
         said += "films solved with bodies as warm as the oil (give bulk_temperature or heat_balance if warmer)"
     else:
-        bulk = f"bodies {model.bulk_temperature - CELSIUS:.4g} °C"
+        bulk = f"bodies {model.bulk_temperature - ZERO_CELSIUS:.4g} °C"
         if element.bulk_estimated:
             bulk = (
-                f"flanks {model.bulk_temperature - CELSIUS:.3g} °C (estimate: oil + 0.7 x mean flash temperature; give "
-                "bulk_temperature or heat_balance if you know better)"
+                f"flanks {model.bulk_temperature - ZERO_CELSIUS:.3g} °C (estimate: oil + 0.7 x mean flash temperature; "
+                "give bulk_temperature or heat_balance if you know better)"
             )
         said += f"{bulk}, at which films are solved"
         if model.viscosity_fixed and not model.viscosity_notes():
@@ -452,13 +447,15 @@ def _scuffing(element: Element, runs: Sequence[Running]) -> str:
     found = scuffing_of(element, runs)
     if found is None:
         return "not known: give oil.temperature and thermal constants of both materials"
-    bulk = f"bulk temperature {found.bulk - CELSIUS:.3g} °C"
+    bulk = f"bulk temperature {found.bulk - ZERO_CELSIUS:.3g} °C"
     if found.estimated and not element.bulk_estimated:
         bulk += " (estimate: oil + 0.7 x mean flash temperature)"
-    said = f"contact temperature {found.contact - CELSIUS:.3g} °C at {place_words(element, found.flash_at)}, {bulk}"
+    said = (
+        f"contact temperature {found.contact - ZERO_CELSIUS:.3g} °C at {place_words(element, found.flash_at)}, {bulk}"
+    )
     if found.integral is not None and found.friction is not None:
         said += (
-            f"; integral temperature {found.integral - CELSIUS:.3g} °C; both with {found.friction:.3g}, the mean "
+            f"; integral temperature {found.integral - ZERO_CELSIUS:.3g} °C; both with {found.friction:.3g}, the mean "
             "friction coefficient of ISO/TR 13989 for scuffing, which is not Schlenk's for the power loss"
         )
     else:

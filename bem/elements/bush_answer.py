@@ -26,10 +26,10 @@ from bem.notes.elements import (
     BUSH_WARMER_THAN_OIL,
     BUSH_WEARS_IN_FILM,
 )
+from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import plain_digits, si, with_unit
 from bem.reference_solutions.journal_bearing import JournalFilm, journal_film
 
-CELSIUS = 273.15
 _HOUR = 3600.0
 _WARMER = 15.0
 """Excess of the bush over the liquid of its film that is worth a note [K]: viscosities change by 2 to 5 % a kelvin."""
@@ -154,7 +154,7 @@ def bush_rows(model: PlainBushModel, film: FilmOfBush | None) -> list[tuple[str,
     if model.specific_wear_rate:
         highest = model.service_temperature
         hot = power is not None and highest is not None and bush_temperature(model, power) > highest
-        lost = f"; the life does not hold above {(highest or 0.0) - CELSIUS:.3g} °C" if hot else ""
+        lost = f"; the life does not hold above {(highest or 0.0) - ZERO_CELSIUS:.3g} °C" if hot else ""
         rows.append(("wear life", _life(model) + lost))
     return rows
 
@@ -196,13 +196,13 @@ def _temperature_notes(model: PlainBushModel, film: FilmOfBush | None, temperatu
     notes, highest = [], model.service_temperature
     if highest is not None and temperature > highest:
         reason = "temperature" if model.maximum_temperature is None else "given"
-        notes.append(BUSH_OVER_LIMIT(value=temperature - CELSIUS, limit=highest - CELSIUS, reason=reason))
+        notes.append(BUSH_OVER_LIMIT(value=temperature - ZERO_CELSIUS, limit=highest - ZERO_CELSIUS, reason=reason))
     closing = model.closing_expansion(temperature)
     if closing is not None and closing < EXPANSION[1]:
         low, high = EXPANSION
         notes.append(
             BUSH_SWELLS(
-                bush=temperature - CELSIUS, closing=closing, clearance=model.radial_clearance, low=low, high=high
+                bush=temperature - ZERO_CELSIUS, closing=closing, clearance=model.radial_clearance, low=low, high=high
             )
         )
     lost = _liquid_lost(model, temperature, 0.0 if film is None else film.rise)
@@ -210,7 +210,7 @@ def _temperature_notes(model: PlainBushModel, film: FilmOfBush | None, temperatu
         notes.append(lost)
     liquid = None if model.film_oil is None or film is None else model.film_oil.temperature
     if lost is None and liquid is not None and temperature > liquid + _WARMER:
-        notes.append(BUSH_WARMER_THAN_OIL(bush=temperature - CELSIUS, oil=liquid - CELSIUS))
+        notes.append(BUSH_WARMER_THAN_OIL(bush=temperature - ZERO_CELSIUS, oil=liquid - ZERO_CELSIUS))
     return notes
 
 
@@ -221,13 +221,13 @@ def _liquid_lost(model: PlainBushModel, temperature: float, rise: float) -> Note
         return None
     freezing, service, boiling = limits
     hottest = temperature + rise
-    said: dict[str, Any] = {"bush": temperature - CELSIUS, "rise": rise}
+    said: dict[str, Any] = {"bush": temperature - ZERO_CELSIUS, "rise": rise}
     if hottest >= boiling:
-        return BUSH_LIQUID_LOST(**said, limit=boiling - CELSIUS, reason="boils")
+        return BUSH_LIQUID_LOST(**said, limit=boiling - ZERO_CELSIUS, reason="boils")
     if hottest > service:
-        return BUSH_LIQUID_LOST(**said, limit=service - CELSIUS, reason="evaporates")
+        return BUSH_LIQUID_LOST(**said, limit=service - ZERO_CELSIUS, reason="evaporates")
     if temperature <= freezing:
-        return BUSH_LIQUID_LOST(**said, limit=freezing - CELSIUS, reason="freezes")
+        return BUSH_LIQUID_LOST(**said, limit=freezing - ZERO_CELSIUS, reason="freezes")
     return None
 
 
@@ -243,14 +243,14 @@ def _pv(model: PlainBushModel) -> str:
 def _temperature(model: PlainBushModel, power: float | None) -> str:
     if power is None and model.bulk_temperature is None:
         return "not known: they follow from the friction"
-    temperature = bush_temperature(model, power or 0.0) - CELSIUS
-    around = model.surroundings - CELSIUS
+    temperature = bush_temperature(model, power or 0.0) - ZERO_CELSIUS
+    around = model.surroundings - ZERO_CELSIUS
     said = f"bush {temperature:.3g} °C"
     if model.bulk_temperature is not None:
         said += f", {'by the heat balance' if model.balanced else 'given'}"
         film = model.film_temperature
         if film is not None and film != model.bulk_temperature:
-            said += f" (film and friction are those of the liquid at {film - CELSIUS:.3g} °C)"
+            said += f" (film and friction are those of the liquid at {film - ZERO_CELSIUS:.3g} °C)"
         if model.viscosity_fixed and not model.viscosity_notes():
             said += " (the viscosity given is taken at this temperature)"
     if model.bulk_temperature is None or model.balanced:
@@ -262,7 +262,7 @@ def _temperature(model: PlainBushModel, power: float | None) -> str:
     if highest is None:
         return f"{said}; no limit given (maximum_temperature)"
     source = "given" if model.maximum_temperature is not None else SERVICE_TEMPERATURES[model.second.build().name][1]
-    return f"{said}; limit {highest - CELSIUS:.3g} °C ({source})"
+    return f"{said}; limit {highest - ZERO_CELSIUS:.3g} °C ({source})"
 
 
 def _wear(model: PlainBushModel, film: FilmOfBush | None) -> str:

@@ -13,11 +13,10 @@ from typing import TYPE_CHECKING, Any
 from bem.elements.element import Element
 from bem.elements.plain_bush import PlainBushModel, sliding_to_depth, worn_out_depth
 from bem.elements.running import Running
+from bem.physical_constants import ZERO_CELSIUS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-_CELSIUS = 273.15
 
 
 def draw_element(element: Element, runs: Sequence[Running], path: Path) -> None:
@@ -168,7 +167,7 @@ def _temperatures(element: Element, known: Sequence[Running], axes: Any) -> None
             ("surface, highest", [known[i].surface for i in rows], "C3"),
         ):
             if all(value is not None for value in values):
-                axes.plot(x, [value - _CELSIUS for value in values if value is not None], dash, marker=".",
+                axes.plot(x, [value - ZERO_CELSIUS for value in values if value is not None], dash, marker=".",
                           color=colour, label=None if number else name)  # fmt: skip
     axes.set_ylabel("temperature (°C)")
     if axes.get_legend_handles_labels()[0]:

@@ -20,8 +20,8 @@ from bem.elements.scuffing import (
     permissible_integral_temperature,
     scuffing_test_friction,
 )
+from bem.physical_constants import ZERO_CELSIUS
 
-CELSIUS = 273.15
 _AT_40 = 313.15
 _RA_OVER_SQ = math.sqrt(2 / math.pi)
 """Mean roughness Ra over rms roughness Sq of Gaussian heights."""
@@ -117,12 +117,12 @@ def scuffing_of(element: Element, runs: Sequence[Running]) -> Scuffing | None:
         allowed = permissible_contact_temperature(
             model.scuffing_load_stage, factor=factor, structure=model.structure_factor
         )
-        contact_safety = (allowed + CELSIUS - oil) / (bulk + flash - oil)
+        contact_safety = (allowed + ZERO_CELSIUS - oil) / (bulk + flash - oil)
         viscosity = _viscosity_at_40(element)
         if integral is not None and viscosity is not None:
             integral_safety = permissible_integral_temperature(
                 model.scuffing_load_stage, viscosity_40=viscosity, factor=factor, structure=model.structure_factor
-            ) / (integral - CELSIUS)
+            ) / (integral - ZERO_CELSIUS)
     return Scuffing(
         bulk, estimated, friction, flash, where, bulk + flash, mean, integral, contact_safety, integral_safety
     )

@@ -13,6 +13,7 @@ from pydantic import Field, model_validator
 from bem.elements.contact import ElementContact
 from bem.notes import Note
 from bem.notes.elements import VISCOSITY_FIXED
+from bem.physical_constants import ZERO_CELSIUS
 from bem.scenes.common import MaterialScene, PositiveLength, Table, problem
 from bem.scenes.oil import OilScene
 from bem.scenes.units import Dimension, Ratio, Temperature, Volume, WearCoefficient
@@ -141,7 +142,7 @@ class ElementModel(Table):
             return ()
         if math.isclose(oil.temperature, bulk, abs_tol=_SAME):
             return ()
-        return (VISCOSITY_FIXED(bulk=bulk - 273.15, oil=oil.temperature - 273.15),)
+        return (VISCOSITY_FIXED(bulk=bulk - ZERO_CELSIUS, oil=oil.temperature - ZERO_CELSIUS),)
 
     @abstractmethod
     def contacts(self) -> Contacts:

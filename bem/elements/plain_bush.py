@@ -24,13 +24,12 @@ from bem.lubrication.oils.catalogue import find_oil
 from bem.materials import CATALOGUE, Material
 from bem.notes import Note
 from bem.notes.elements import BUSH_CONFORMS, BUSH_GLYCOL, BUSH_LEAKS, BUSH_SWINGS
+from bem.physical_constants import ROOM_TEMPERATURE
 from bem.scenes.common import MaterialScene, PositiveLength, Table, problem
 from bem.scenes.units import Angle, Dimension, Force, Rate, Ratio, RotationSpeed, Temperature
 
 HOUSING = "steel-52100"
 """Material around a wall where none is given; any metal is nearly rigid beside a polymer."""
-ROOM = 293.15
-"""Temperature of the surroundings where none is given [K]."""
 DRY_FRICTION = {
     "peek": (
         0.35,
@@ -259,26 +258,27 @@ class PlainBushModel(ElementModel):
     def closing_expansion(self, temperature: float) -> float | None:
         """Return the linear expansion coefficient [1/K] that closes the clearance at a bush temperature [K].
 
-        None of a bush without a wall, of a metal, and of one that is not warmer than `ROOM`, at which the clearance is
-        taken to be that of the file.
+        None of a bush without a wall, of a metal, and of one that is not warmer than `ROOM_TEMPERATURE`, at which the
+        clearance is taken to be that of the file.
+
         The wall from the radius a to b is held at b, in a housing that does not expand, and along its axis; its bore
         moves inward by (1 + nu) alpha dT a (b^2 - a^2) / ((1 - 2 nu) b^2 + a^2) (Lame's cylinder in plane strain,
         derived here), of a thin wall of thickness t by (1 + nu)/(1 - nu) alpha dT t.
         """
         bush = self.second.build()
-        if self.wall is None or bush.youngs_modulus > POLYMER or temperature <= ROOM:
+        if self.wall is None or bush.youngs_modulus > POLYMER or temperature <= ROOM_TEMPERATURE:
             return None
         ratio, bore = bush.poissons_ratio, self.bodies.radius
         outer = bore + self.wall
         moved = (1 + ratio) * bore * (outer**2 - bore**2) / ((1 - 2 * ratio) * outer**2 + bore**2)
-        return self.radial_clearance / (moved * (temperature - ROOM))
+        return self.radial_clearance / (moved * (temperature - ROOM_TEMPERATURE))
 
     @property
     def surroundings(self) -> float:
         """Temperature to which the heat flows [K]."""
         if self.heat_balance is not None and self.heat_balance.ambient is not None:
             return self.heat_balance.ambient
-        return ROOM if self.oil is None or self.oil.temperature is None else self.oil.temperature
+        return ROOM_TEMPERATURE if self.oil is None or self.oil.temperature is None else self.oil.temperature
 
     @property
     def conductance(self) -> float:

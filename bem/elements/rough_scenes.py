@@ -14,14 +14,13 @@ from typing import TYPE_CHECKING, Any
 from bem.elements.contact import ElementContact
 from bem.errors import InputError
 from bem.materials import Body, softer_hardness
+from bem.physical_constants import ROOM_TEMPERATURE
 from bem.surfaces.processes import PROCESSES
 
 if TYPE_CHECKING:
     from bem.elements.model import ElementModel
     from bem.elements.plain_bush import PlainBushModel
 
-ROOM = 293.15
-"""Bulk temperature of both bodies without an oil [K]."""
 
 _LINE_HALF_WIDTHS = 4.0
 """Length of the patch of a line contact along the motion, in half-widths of the Hertz contact."""
@@ -343,7 +342,7 @@ def rubbing_scene(
     if contact.length is not None:
         curved = {"kind": "cylinder", "radius": contact.radius}
     oil = model.film_oil
-    bulk = model.bulk_temperature or (ROOM if oil is None or oil.temperature is None else oil.temperature)
+    bulk = model.bulk_temperature or (ROOM_TEMPERATURE if oil is None or oil.temperature is None else oil.temperature)
     return {
         "grid": patch.table(),
         **rough_bodies(model, bodies, patch),

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import si
 from bem.scenes.load import dumped
 
@@ -60,5 +61,5 @@ def _value(key: str, value: Any) -> str:
     if key not in _UNITS or not math.isfinite(value):
         return dumped(value if isinstance(value, int) else float(f"{value:.{_DIGITS}g}"))
     if _UNITS[key] == "K":
-        return dumped(f"{value - 273.15:.{_DIGITS}g} degC")
+        return dumped(f"{value - ZERO_CELSIUS:.{_DIGITS}g} degC")
     return dumped(si(value, _UNITS[key], _DIGITS))

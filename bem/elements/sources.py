@@ -9,6 +9,7 @@ from bem.elements.gear_pair import GearModel
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.plain_bush import AREA_FACTOR, SERVICE_TEMPERATURES, TRANSFER, PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
+from bem.physical_constants import ZERO_CELSIUS
 from bem.reference_solutions import pin_in_hole
 
 _FILM = {
@@ -44,7 +45,7 @@ def constants_of_element(element: Element) -> dict[str, str]:
         found[f"friction of dry {bush}"] = f"{model.dry_friction[0]:g}: {model.dry_friction[1]}"
     if model.maximum_temperature is None and bush in SERVICE_TEMPERATURES:
         highest, source = SERVICE_TEMPERATURES[bush]
-        found[f"highest temperature of {bush}"] = f"{highest - 273.15:g} degC: {source}"
+        found[f"highest temperature of {bush}"] = f"{highest - ZERO_CELSIUS:g} degC: {source}"
     given = model.heat_balance is not None and model.heat_balance.conductance is not None
     if model.bulk_temperature is None and not given:
         found["heat conductance"] = (

@@ -30,9 +30,8 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.laws import Law, make_laws, parameter, register
+from bem.physical_constants import BOLTZMANN
 
-BOLTZMANN = 1.380649e-23
-"""[J/K]"""
 _LARGEST_EXPONENT = 100.0
 """Largest exponent of a law: far beyond any friction, and far from the end of floating point."""
 

@@ -12,10 +12,9 @@ from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 from bem.notes import Note
 from bem.notes.heat import SURFACE_HOT
+from bem.physical_constants import ZERO_CELSIUS
 from bem.representation import readable
 
-_ZERO_CELSIUS = 273.15
-"""Absolute temperature of 0 C [K]."""
 _ABSOLUTE_BULK = 150.0
 """Least bulk temperature that is read as absolute [K]; below it the result is read as a rise."""
 _HOT_BULK = 573.15
@@ -99,8 +98,8 @@ def _notes(maximum: float, bulk: float) -> Iterator[Note]:
             yield SURFACE_HOT(rise=maximum, reason="rise")
         return
     if bulk > _HOT_BULK:
-        yield SURFACE_HOT(bulk=bulk - _ZERO_CELSIUS, limit=_HOT_BULK - _ZERO_CELSIUS, reason="bulk")
+        yield SURFACE_HOT(bulk=bulk - ZERO_CELSIUS, limit=_HOT_BULK - ZERO_CELSIUS, reason="bulk")
     if maximum > _TRANSFORMATION:
-        yield SURFACE_HOT(temperature=maximum - _ZERO_CELSIUS, reason="transforms")
+        yield SURFACE_HOT(temperature=maximum - ZERO_CELSIUS, reason="transforms")
     elif maximum > _SOFTENING >= bulk:
-        yield SURFACE_HOT(temperature=maximum - _ZERO_CELSIUS, reason="softens")
+        yield SURFACE_HOT(temperature=maximum - ZERO_CELSIUS, reason="softens")

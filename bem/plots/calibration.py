@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from bem.physical_constants import ZERO_CELSIUS
 from bem.plots.style import BLUE, GREEN, ORANGE, VERMILION, style
 from bem.results.atomic import replacing
 from bem.tribofilm.calibrate import Calibration, Measurement
@@ -61,7 +62,7 @@ def _over_time(axes: object, fit: Calibration, quantity: str, text: str) -> None
         (BLUE, VERMILION, GREEN, ORANGE) * 9, sorted({m.temperature for m in own}), strict=False
     ):
         rows = [m for m in own if m.temperature == temperature]
-        name = f"{temperature - 273.15:.0f} °C"
+        name = f"{temperature - ZERO_CELSIUS:.0f} °C"
         axes.errorbar(
             [m.time / 60 for m in rows],
             [1e9 * m.value for m in rows],

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.plots.labels import ZERO_CELSIUS, key_words, prefix
+from bem.physical_constants import ZERO_CELSIUS
+from bem.plots.labels import key_words, prefix
 from bem.results.arrays import Arrays
 from bem.scenes.context import Variable
 from bem.scenes.kind import get_kind

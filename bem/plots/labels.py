@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.numerics.blocks import BLOCK, row_blocks
+from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import plain_digits, prefix_for
 from bem.scenes.context import release
 
-ZERO_CELSIUS = 273.15
 UNIFORM = 1e-5
 """A field that differs by less than this fraction of its largest value is drawn as uniform: solvers leave 1e-6."""
 FEWEST_CELLS = 8

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from bem.physical_constants import ZERO_CELSIUS
 from bem.plots.labels import label, prefix
 from bem.quantities import plain_digits, with_signs
 from bem.scenes.records import INPUTS, OIL, TELLING, scatter_key, unit_of
@@ -483,14 +484,14 @@ def _same_values(figures: Sequence[Any], values: Sequence[Any]) -> bool:
         scale = 1e-9 * np.abs(np.asarray(values, dtype=np.float64))
     except (TypeError, ValueError):
         return False
-    return bool((np.abs(differences) <= scale).all() or (np.abs(differences - 273.15) <= scale).all())
+    return bool((np.abs(differences) <= scale).all() or (np.abs(differences - ZERO_CELSIUS) <= scale).all())
 
 
 def shown_values(key: str, values: Sequence[Any], unit: str) -> tuple[str, list[str]]:
     """Unit and texts of the values of a varied key; absolute temperatures are shown in degrees Celsius."""
     numbers = [v for v in values if isinstance(v, int | float) and not isinstance(v, bool)]
     if unit == "K" and key.endswith("temperature"):
-        return "°C", [v if isinstance(v, str) else _cell(v - 273.15) for v in values]
+        return "°C", [v if isinstance(v, str) else _cell(v - ZERO_CELSIUS) for v in values]
     factor, unit = prefix(numbers, unit) if numbers else (1.0, "" if unit == "1" else unit)
     return with_signs(unit), [v if isinstance(v, str) else _cell(v, factor) for v in values]
 

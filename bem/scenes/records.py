@@ -25,13 +25,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.errors import Status
+from bem.physical_constants import ZERO_CELSIUS
 
 Which = Literal["each", "first", "last"]
 
 UNITS: dict[str, tuple[str, float, float, float]] = {
     "": ("1", 1, 1, 0), "m": ("m", 1, 1, 0), "m2": ("m^2", 1, 1, 0), "m3": ("m^3", 1, 1, 0), "nm": ("m", 1e9, 1, 0),
     "um": ("m", 1e6, 1, 0), "um3": ("m^3", 1e18, 1, 0), "mm3": ("m^3", 1e9, 1, 0), "N": ("N", 1, 1, 0),
-    "Pa": ("Pa", 1, 1, 0), "K": ("K", 1, 1, 0), "C": ("K", 1, 1, -273.15), "s": ("s", 1, 1, 0), "h": ("s", 1, 3600, 0),
+    "Pa": ("Pa", 1, 1, 0), "K": ("K", 1, 1, 0), "C": ("K", 1, 1, -ZERO_CELSIUS), "s": ("s", 1, 1, 0),
+    "h": ("s", 1, 3600, 0),
     "m_s": ("m/s", 1, 1, 0), "nm_s": ("m/s", 1e9, 1, 0), "percent": ("1", 100, 1, 0), "J": ("J", 1, 1, 0),
     "N_m": ("N/m", 1, 1, 0), "per_m": ("1/m", 1, 1, 0), "Nm": ("N*m", 1, 1, 0),
     "rad": ("rad", 1, 1, 0), "deg": ("rad", 180, math.pi, 0),

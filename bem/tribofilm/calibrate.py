@@ -27,8 +27,8 @@ from scipy.special import gammaincc
 from bem.arguments import read_small
 from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.physical_constants import BOLTZMANN, ELECTRON_VOLT, ZERO_CELSIUS
 from bem.tribofilm.evolution import GrowthRate, evolve_film
-from bem.tribofilm.growth import BOLTZMANN, ELECTRON_VOLT
 from bem.tribofilm.properties import FadingSubstrate
 
 _SMALLEST_SINGULAR_VALUE = 1e-6
@@ -37,7 +37,7 @@ MOST_SCATTER = 0.15
 _BOUND_FACTOR = 30.0  # parameters are bounded within this factor of their start
 _ASSUMED = 0.05  # relative error of a measurement that comes without one
 _COLUMNS = {
-    "temperature": ("K", {"K": (1.0, 0.0), "degC": (1.0, 273.15), "C": (1.0, 273.15)}),
+    "temperature": ("K", {"K": (1.0, 0.0), "degC": (1.0, ZERO_CELSIUS), "C": (1.0, ZERO_CELSIUS)}),
     "time": ("s", {"s": (1.0, 0.0), "min": (60.0, 0.0), "h": (3600.0, 0.0), "hour": (3600.0, 0.0)}),
     "since": ("s", {"s": (1.0, 0.0), "min": (60.0, 0.0), "h": (3600.0, 0.0), "hour": (3600.0, 0.0)}),
     "thickness": ("m", {"m": (1.0, 0.0), "um": (1e-6, 0.0), "nm": (1e-9, 0.0)}),

@@ -24,14 +24,13 @@ from scipy.integrate import solve_ivp
 
 from bem.errors import BemError, ConvergenceError
 from bem.grid import FloatArray
+from bem.physical_constants import ATOM
 from bem.representation import readable
 from bem.tribofilm.balance import FilmBalance, checked_times
 
 GrowthRate = Callable[[float], float]
 """mean thickness [m] -> growth rate [m/s]"""
 
-_ATOM = 2e-10
-"""Height of an atom [m]: thinner films need no relative accuracy."""
 
 _MOST_EVALUATIONS = 200_000
 """Largest number of evaluations of the rates. An ordinary film takes some hundreds, each of its lags some tens."""
@@ -164,7 +163,8 @@ def _integrate(rates: _Rates, when: FloatArray, tolerance: float) -> None:
 
 
 def _solve_step(rates: _Rates, between: tuple[float, float], state: FloatArray, tolerance: float) -> Any:
-    accuracy: dict[str, Any] = {"rtol": tolerance, "atol": _ATOM * tolerance}
+    # films thinner than an atom need no relative accuracy
+    accuracy: dict[str, Any] = {"rtol": tolerance, "atol": ATOM * tolerance}
     # a step that overflows or divides by zero within Radau is repeated with a shorter one
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         try:

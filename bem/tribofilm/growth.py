@@ -11,11 +11,7 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.laws import Law, parameter, register
-
-ZERO_CELSIUS = 273.15
-BOLTZMANN = 1.380649e-23
-"""[J/K], exact by definition of the SI, like `ELECTRON_VOLT` [J]."""
-ELECTRON_VOLT = 1.602176634e-19
+from bem.physical_constants import BOLTZMANN, ELECTRON_VOLT
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.errors import InputError
-from bem.friction.boundary import BOLTZMANN
 from bem.grid import FloatArray
+from bem.physical_constants import BOLTZMANN
 
 
 @dataclass(frozen=True)

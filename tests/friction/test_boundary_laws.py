@@ -8,7 +8,6 @@ from mixed_case import mixed_case
 
 from bem import InputError, Lubricant, solve_mixed
 from bem.friction.boundary import (
-    BOLTZMANN,
     ActivatedShear,
     FrictionOverPressure,
     PressureDependentShear,
@@ -16,6 +15,7 @@ from bem.friction.boundary import (
     filled_part,
 )
 from bem.lubrication.shear import Newtonian
+from bem.physical_constants import BOLTZMANN
 from bem.scenes import load_scene
 
 CASE = mixed_case(48, 2e-6, 6e-6, speeds=(0.003, 0.0))

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from bem.kinds.friction.friction_map import FRICTION_MAP
+from bem.physical_constants import ZERO_CELSIUS
 from bem.plots.cases import case_words, grouped, many_speeds
 from bem.plots.figures import FigureKind
 from bem.plots.style import (
@@ -44,7 +45,6 @@ _MODEL_NAMES = {
 _ALIKE = 0.01
 """Fraction of the highest friction: a curve that stays closer to an earlier one hides it."""
 Array = NDArray[Any]
-_CELSIUS = 273.15
 
 
 def _curves(run: Any, name: str) -> list[tuple[str, Array]]:
@@ -121,13 +121,17 @@ def _temperatures(run: Any, figure: Figure) -> None:
         if not np.isfinite(values).any():  # nothing rubs: no line, and none in the legend
             continue
         _band(
-            axes, speed, values - _CELSIUS, _COLOURS[number], f"surfaces in contact, {name}".replace(", friction", "")
+            axes,
+            speed,
+            values - ZERO_CELSIUS,
+            _COLOURS[number],
+            f"surfaces in contact, {name}".replace(", friction", ""),
         )
     for key, text, dots in (("flash_temperature", "highest of them", ":"), ("oil_temperature", "oil, mean", "-.")):
         first = _curves(run, key)[0][1].mean(axis=0)
         if not np.isfinite(first).any():
             continue
-        axes.plot(speed, first - _CELSIUS, color="0.45", linestyle=dots, label=text)
+        axes.plot(speed, first - ZERO_CELSIUS, color="0.45", linestyle=dots, label=text)
     axes.set_ylabel("temperature (°C)")
     speed_axis(axes, speed)
     axes.set_ylim(auto=True)

@@ -7,17 +7,16 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from bem.physical_constants import ZERO_CELSIUS
 from bem.plots.figures import FigureKind, two_dimensional
 from bem.plots.style import BLACK, ORANGE, VERMILION, label, map_of, prefix
-
-_CELSIUS = 273.15
 
 
 def _map(run: Any, figure: Figure) -> None:
     data = run.dataset
     axes = figure.add_subplot()
     x, y = data["x"].values, data["y"].values
-    celsius = data["surface_temperature"].values - _CELSIUS
+    celsius = data["surface_temperature"].values - ZERO_CELSIUS
     if map_of(figure, axes, x, y, celsius, "surface temperature", "°C", cmap="inferno") is None:
         return
     factor, _ = prefix([float(np.ptp(x))], "m")
@@ -29,7 +28,7 @@ def _map(run: Any, figure: Figure) -> None:
 def _section(run: Any, figure: Figure) -> None:
     """Along the motion through the hottest place."""
     data = run.dataset
-    x, celsius = data["x"].values, data["surface_temperature"].values - _CELSIUS
+    x, celsius = data["x"].values, data["surface_temperature"].values - ZERO_CELSIUS
     row = int(np.unravel_index(int(np.argmax(celsius)), celsius.shape)[1])
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
     factor_x, unit_x = prefix([float(np.ptp(x))], "m")

@@ -11,12 +11,12 @@ from matplotlib.figure import Figure
 
 from bem.notes import of_summary
 from bem.notes.lubrication import FILM_SPIKE
+from bem.physical_constants import ZERO_CELSIUS
 from bem.plots.cases import Array, axes_of, case_words, first_case, grouped, label_of
 from bem.plots.figures import FigureKind
 from bem.plots.over import COLOURS, axis_of, lines_over
 from bem.plots.style import BLACK, BLUE, VERMILION, has_unresolved_spike, label, mark_spike, name_case, prefix
 
-_CELSIUS = 273.15
 _MOST_TEMPERATURES = 6
 """Cases that are drawn with temperatures of oil and surfaces; of more, every n-th."""
 
@@ -35,7 +35,7 @@ def _curve(run: Any, figure: Figure) -> None:
     if (data["traction_coefficient"].values >= 0).all():
         panels[0].set_ylim(0)
     if hot:
-        lines_over(panels[1], data, "film_temperature", ratio, _CELSIUS)
+        lines_over(panels[1], data, "film_temperature", ratio, ZERO_CELSIUS)
         panels[1].set_ylabel("oil in the contact (°C)")
     panels[-1].set_xlabel("slide-to-roll ratio")
     if panels[0].get_legend_handles_labels()[1]:
@@ -56,9 +56,9 @@ def _temperatures(run: Any, figure: Figure) -> None:
     x = x if x.ndim == 1 else first_case(run.dataset)["x"].values
     surfaces = {name: dict(grouped(run, f"{name}_surface_temperature")) for name in ("lower", "upper")}
     for colour, (case, oil) in zip(COLOURS, shown, strict=False):
-        axes.plot(x, oil[0] - _CELSIUS, color=colour, label=f"oil, {case}" if case else "oil")
+        axes.plot(x, oil[0] - ZERO_CELSIUS, color=colour, label=f"oil, {case}" if case else "oil")
         for name, dash in (("lower", "--"), ("upper", ":")):
-            axes.plot(x, surfaces[name][case][0] - _CELSIUS, color=colour, linestyle=dash)
+            axes.plot(x, surfaces[name][case][0] - ZERO_CELSIUS, color=colour, linestyle=dash)
     axes.plot([], [], "--", color=BLACK, label="lower surface")
     axes.plot([], [], ":", color=BLACK, label="upper surface")
     axes.set_xlabel("x over the Hertz half-width")
@@ -78,7 +78,9 @@ def _field(run: Any, figure: Figure) -> None:
     shown = np.isfinite(field[0][:, 0])
     thickness = data_of[case][0][shown] * 1e9
     place = np.broadcast_to(x[shown, None], (int(shown.sum()), len(height)))
-    filled = upper.contourf(place, height * thickness[:, None], field[0][shown] - _CELSIUS, levels=24, cmap="inferno")
+    filled = upper.contourf(
+        place, height * thickness[:, None], field[0][shown] - ZERO_CELSIUS, levels=24, cmap="inferno"
+    )
     figure.colorbar(filled, ax=upper, label="oil (°C)")
     middle = thickness[np.argmin(np.abs(x[shown]))]
     upper.set_ylim(0, 3 * middle)
@@ -87,8 +89,8 @@ def _field(run: Any, figure: Figure) -> None:
         upper.set_title(f"position {case}" if "position" in axes_of(run.dataset) else case)
     for name, colour in (("lower", BLUE), ("upper", VERMILION)):
         row = dict(grouped(run, f"{name}_surface_temperature"))[case][0]
-        lower.plot(x, row - _CELSIUS, color=colour, label=f"{name} surface")
-    lower.plot(x, np.max(field[0], axis=1) - _CELSIUS, color=BLACK, label="hottest oil")
+        lower.plot(x, row - ZERO_CELSIUS, color=colour, label=f"{name} surface")
+    lower.plot(x, np.max(field[0], axis=1) - ZERO_CELSIUS, color=BLACK, label="hottest oil")
     lower.set_xlabel("x over the Hertz half-width")
     lower.set_ylabel("temperature (°C)")
     lower.legend()
@@ -188,7 +190,7 @@ def _along(run: Any, figure: Figure) -> None:
         _lambda_beside(film, _row(data, "lambda_ratio") / _row(data, "minimum_thickness"))
     if hot:
         for name, words, colour in _SURFACES:
-            others[0].plot(place, _row(data, name) - _CELSIUS, "o-", markersize=3, color=colour, label=words)
+            others[0].plot(place, _row(data, name) - ZERO_CELSIUS, "o-", markersize=3, color=colour, label=words)
         others[0].set_ylabel("temperature\n(°C)")
         others[0].legend()
     pressed.set_xlabel("position along the path (mm)")

@@ -14,11 +14,12 @@ from typing import Any
 from bem.errors import InputError
 from bem.lubrication.oils.index import viscosity_at_40, viscosity_at_100
 from bem.lubrication.oils.oil import Line, Oil
-from bem.lubrication.oils.over_temperature import CELSIUS, LAWS, MM2_S, OverTemperature, ViscosityTable, Walther
+from bem.lubrication.oils.over_temperature import LAWS, MM2_S, OverTemperature, ViscosityTable, Walther
 from bem.lubrication.oils.pressure import PressureViscosity
 from bem.lubrication.rheology import rheology_of
+from bem.physical_constants import ZERO_CELSIUS
 
-_T40, _T100 = 40.0 + CELSIUS, 100.0 + CELSIUS
+_T40, _T100 = 40.0 + ZERO_CELSIUS, 100.0 + ZERO_CELSIUS
 _ISO = re.compile(r"(?:iso ?vg|iso|vg) ?(\d{1,5})")
 _MULTIGRADE = re.compile(r"(?:sae )?(\d{1,3}) ?w ?(\d{1,3})")
 _MONOGRADE = re.compile(r"sae ?(\d{1,3})")
@@ -139,7 +140,7 @@ def correlation(name: str) -> PressureViscosity:
         slope_exponent=table.get("slope_exponent", 0.0),
         logarithm=tuple(table["logarithm"]) if "logarithm" in table else None,
         viscosity=tuple(table["viscosity"]),
-        temperature=(cold + CELSIUS, hot + CELSIUS),
+        temperature=(cold + ZERO_CELSIUS, hot + ZERO_CELSIUS),
         pressure=1e9 * table.get("pressure", 0.0),
         error=table["error"],
     )
@@ -207,7 +208,7 @@ def _multigrade(name: str, winter: int, number: int, *, viscosity_index: float |
         allowed = ", ".join(f"{one}W" for one in grade["winter"])
         raise InputError(f'oil "{name[:60]}": no such W grade beside {number}; allowed: {allowed}')
     density = _line("density", _data()["base"][base or "mineral"])
-    least = _least_index(v100, cold + CELSIUS, grade["limit"] / density(cold + CELSIUS))
+    least = _least_index(v100, cold + ZERO_CELSIUS, grade["limit"] / density(cold + ZERO_CELSIUS))
     index = max(least, _LEAST_INDEX) if viscosity_index is None else viscosity_index
     law = _from_index(viscosity_at_40(v100, index), v100)
     given = "given" if viscosity_index is not None else grade["index_source"]
@@ -247,7 +248,7 @@ def _named(name: str, table: Mapping[str, Any]) -> Oil:
     law: OverTemperature
     if "temperatures" in table:
         pairs = zip(table["temperatures"], table["viscosities"], strict=True)
-        law = LAWS[table.get("law", ViscosityTable.name)].through([(t + CELSIUS, v * MM2_S) for t, v in pairs])
+        law = LAWS[table.get("law", ViscosityTable.name)].through([(t + ZERO_CELSIUS, v * MM2_S) for t, v in pairs])
     elif "viscosity" in table:
         law = _from_index(*table["viscosity"])
     elif "viscosity_100" in table:
@@ -263,7 +264,7 @@ def _made(name: str, base: str, law: OverTemperature, source: str, own: Mapping[
     if alpha is not None and "pressure_viscosity_source" in table:
         alpha = dataclasses.replace(alpha, source=f"{table['pressure_viscosity_source']}: {alpha.source}")
     limits = {
-        key: table[key] + CELSIUS
+        key: table[key] + ZERO_CELSIUS
         for key in ("freezing_point", "flash_point", "boiling_point", "largest_service")
         if key in table
     }
@@ -284,4 +285,4 @@ def _made(name: str, base: str, law: OverTemperature, source: str, own: Mapping[
 
 def _line(key: str, table: Mapping[str, Any]) -> Line:
     at, value, slope = table[key]
-    return Line(at + CELSIUS, value, slope, table[f"{key}_source"])
+    return Line(at + ZERO_CELSIUS, value, slope, table[f"{key}_source"])

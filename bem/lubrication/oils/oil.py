@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from bem.arguments import is_finite
 from bem.errors import InputError
-from bem.lubrication.oils.over_temperature import CELSIUS, OverTemperature
+from bem.lubrication.oils.over_temperature import OverTemperature
 from bem.lubrication.oils.pressure import PressureViscosity
 from bem.lubrication.rheology import ShearRheology
 from bem.notes import Note
 from bem.notes.lubrication import OIL_DATA_SHORT, OIL_TOO_HOT, OIL_TOO_THICK
+from bem.physical_constants import ZERO_CELSIUS
 
 if TYPE_CHECKING:
     from bem.lubrication.lubricant import Lubricant
@@ -139,16 +140,18 @@ class Oil:
         law, found = self.viscosity, []
         mu = self.dynamic_viscosity(temperature)
         if not law.lowest - EXTRAPOLATED <= temperature <= law.highest + EXTRAPOLATED:
-            low, high = law.lowest - CELSIUS, law.highest - CELSIUS
+            low, high = law.lowest - ZERO_CELSIUS, law.highest - ZERO_CELSIUS
             found.append(
-                OIL_DATA_SHORT(self.name, temperature=temperature - CELSIUS, low=low, high=high, reason="viscosity")
+                OIL_DATA_SHORT(
+                    self.name, temperature=temperature - ZERO_CELSIUS, low=low, high=high, reason="viscosity"
+                )
             )
         if mu > FLOWS:
             found.append(OIL_TOO_THICK(self.name, viscosity=mu, limit=FLOWS))
         if self.flash_point is not None and temperature > self.flash_point:
-            found.append(OIL_TOO_HOT(self.name, limit=self.flash_point - CELSIUS, reason="flash-point"))
+            found.append(OIL_TOO_HOT(self.name, limit=self.flash_point - ZERO_CELSIUS, reason="flash-point"))
         if self.largest_service is not None and temperature > self.largest_service:
-            found.append(OIL_TOO_HOT(self.name, limit=self.largest_service - CELSIUS, reason="service"))
+            found.append(OIL_TOO_HOT(self.name, limit=self.largest_service - ZERO_CELSIUS, reason="service"))
         if self.pressure_viscosity is not None:
             note = self.pressure_viscosity.note(mu, self.density(temperature), temperature)
             found += [] if note is None else [note.at(self.name)]
@@ -189,4 +192,4 @@ class Oil:
 
 
 def _celsius(temperature: float) -> str:
-    return f"{temperature - CELSIUS:.6g} degC"
+    return f"{temperature - ZERO_CELSIUS:.6g} degC"

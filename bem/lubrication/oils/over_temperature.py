@@ -17,7 +17,6 @@ from bem.errors import InputError
 
 MM2_S = 1e-6
 """One mm^2/s in m^2/s."""
-CELSIUS = 273.15
 _SHIFT = 0.7
 Points = Sequence[tuple[float, float]]
 """Temperatures [K] and kinematic viscosities [m^2/s]."""

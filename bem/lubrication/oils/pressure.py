@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from bem.lubrication.viscosity import ROELANDS_PRESSURE, ROELANDS_VISCOSITY
 from bem.notes import Note
 from bem.notes.lubrication import OIL_DATA_SHORT
+from bem.physical_constants import ZERO_CELSIUS
 
 GPA = 1e-9
 """One 1/GPa in 1/Pa."""
@@ -66,7 +67,7 @@ class PressureViscosity:
         outside = cold < hot and not cold - 10.0 <= temperature <= hot + 10.0
         if thin / _REACH <= value <= _REACH * thick and not outside:
             return None
-        at = f" at {cold - 273.15:.0f} to {hot - 273.15:.0f} degC" if outside else ""
+        at = f" at {cold - ZERO_CELSIUS:.0f} to {hot - ZERO_CELSIUS:.0f} degC" if outside else ""
         return OIL_DATA_SHORT(
             correlation=self.name, thin=thin, thick=thick, unit=unit, at=at, reason="pressure-viscosity"
         )

@@ -10,8 +10,8 @@ from bem.errors import InputError
 from bem.heat.bodies import Conductor, conductors_of
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.oils.oil import HOTTEST
-from bem.lubrication.oils.over_temperature import CELSIUS
 from bem.materials import Body
+from bem.physical_constants import ZERO_CELSIUS
 
 
 def moving_bodies(
@@ -47,7 +47,9 @@ def moving_bodies(
     found = conductors_of(owner, bodies, speeds, bulks)
     hot = [value for value in (*(body.bulk for body in found), temperature) if value > HOTTEST]
     if hot:
-        raise InputError(f"{owner}: {hot[0] - CELSIUS:g} degC is above {HOTTEST - CELSIUS:g} degC; oils crack")
+        raise InputError(
+            f"{owner}: {hot[0] - ZERO_CELSIUS:g} degC is above {HOTTEST - ZERO_CELSIUS:g} degC; oils crack"
+        )
     least = 1 / cool_at
     sign = math.copysign(1.0, float(speeds[0]) + float(speeds[1]))
     moving = []

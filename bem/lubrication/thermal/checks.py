@@ -10,10 +10,10 @@ from bem.lubrication.inlet_heating import InletHeating
 from bem.lubrication.line.state import FilmState
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.oils.oil import EXTRAPOLATED, HOTTEST, Oil
-from bem.lubrication.oils.over_temperature import CELSIUS
 from bem.lubrication.results import FilmSolution
 from bem.notes import Note, without
 from bem.notes.lubrication import HEAT_LEFT_OUT, LUMPED_HEAT_LIMIT, OIL_DATA_SHORT, OIL_TOO_HOT
+from bem.physical_constants import ZERO_CELSIUS
 
 LARGEST_LOADING = 0.05
 """Thermal loading of the inlet up to which lumped heat is accurate: film and friction within 5 % of full heat up to a
@@ -58,7 +58,7 @@ def notes_of_heat(lubricant: Lubricant, hottest: float) -> tuple[Note, ...]:
     """Return notes on the highest temperature of oil and surfaces [K]."""
     notes = []
     if hottest > HOTTEST:
-        notes.append(OIL_TOO_HOT(limit=HOTTEST - CELSIUS, reason="cracks"))
+        notes.append(OIL_TOO_HOT(limit=HOTTEST - ZERO_CELSIUS, reason="cracks"))
     elif lubricant.oil is not None:
         notes += _hot_oil(lubricant.oil, hottest)
     return tuple(notes)
@@ -70,7 +70,9 @@ def _hot_oil(oil: Oil, hottest: float) -> list[Note]:
         return [OIL_TOO_HOT(oil=oil.name, reason="boils")]
     if hottest > oil.viscosity.highest + EXTRAPOLATED:
         return [
-            OIL_DATA_SHORT(oil=oil.name, beyond=EXTRAPOLATED, highest=oil.viscosity.highest - CELSIUS, reason="hot")
+            OIL_DATA_SHORT(
+                oil=oil.name, beyond=EXTRAPOLATED, highest=oil.viscosity.highest - ZERO_CELSIUS, reason="hot"
+            )
         ]
     return []
 

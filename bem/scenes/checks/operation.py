@@ -9,7 +9,7 @@ from bem.notes import Level, Note
 from bem.notes.checks import GROWTH_WITHOUT_BARRIER, TRIBOFILM_ON_COATING
 from bem.notes.contact import CREEPAGE_LARGE
 from bem.notes.friction import PURE_ROLLING
-from bem.plausibility import ELECTRON_VOLT
+from bem.physical_constants import ELECTRON_VOLT
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.registry import outcome_check, scene_check
 from bem.scenes.checks.words import numbers

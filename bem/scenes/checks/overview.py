@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from bem.materials import Body, Material
 from bem.notes.note import percent
+from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import si
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.words import times
@@ -73,7 +74,7 @@ def oil(lubricant: Lubricant) -> list[tuple[str, str, str]]:
     assert temperature is not None
     rows = [
         ("oil", made.name, made.viscosity_source),
-        ("temperature", f"{temperature - 273.15:.4g} degC", ""),
+        ("temperature", f"{temperature - ZERO_CELSIUS:.4g} degC", ""),
         ("viscosity", si(lubricant.viscosity, "Pa s"), made.viscosity.words),
         ("kinematic", f"{1e6 * made.viscosity.kinematic(temperature):.4g} mm^2/s", ""),
         ("softening", f"{100 * (lubricant.temperature_viscosity or 0.0):.2g} %/K", "-d ln(viscosity)/dT, of the same"),
@@ -91,7 +92,7 @@ def oil(lubricant: Lubricant) -> list[tuple[str, str, str]]:
             found = line.source if line is not None and value == line(temperature) else "given"
             rows.append((name, f"{value:.4g} {unit}", found))
     limits = [
-        f"{name} {value - 273.15:.4g} degC"
+        f"{name} {value - ZERO_CELSIUS:.4g} degC"
         for name, value in (
             ("solid below", made.freezing_point),
             ("flashes at", made.flash_point),

@@ -9,6 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from bem.friction.setup import HEAT_NEEDS
 from bem.grid import Grid
+from bem.physical_constants import ROOM_TEMPERATURE
 from bem.scenes import build
 from bem.scenes.common import BodyScene, Table, problem
 from bem.scenes.keys import key
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from bem.accuracy import RubbingCase
 
 BulkTemperature = Annotated[Temperature, Field(ge=150, le=2000)]
-ROOM = 293.15
 
 
 class RubbingHeatScene(Table):
@@ -32,13 +32,13 @@ class RubbingHeatScene(Table):
     lower_bulk: BulkTemperature = key(
         "Bulk temperature of the lower body, far from the contact.",
         "basic",
-        default=ROOM,
+        default=ROOM_TEMPERATURE,
         reason="room temperature, 20 degC",
     )
     upper_bulk: BulkTemperature = key(
         "Bulk temperature of the upper body, far from the contact.",
         "basic",
-        default=ROOM,
+        default=ROOM_TEMPERATURE,
         reason="room temperature, 20 degC",
     )
 

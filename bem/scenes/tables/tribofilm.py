@@ -12,6 +12,7 @@ from pydantic import Field, model_validator
 from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
 from bem.materials import softer_hardness
+from bem.physical_constants import ZERO_CELSIUS
 from bem.reference_solutions.hertz import smooth_load, sphere_contact
 from bem.scenes import build
 from bem.scenes.axes import Model, changed, with_keys
@@ -33,7 +34,7 @@ from bem.scenes.oil import OilScene
 from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.units import Energy, InverseLength, Length, Rate, Ratio, Speed, Temperature, Time, Volume
 from bem.tribofilm.balance import FilmBalance
-from bem.tribofilm.growth import ZERO_CELSIUS, GrowthLaw, StressActivatedGrowth
+from bem.tribofilm.growth import GrowthLaw, StressActivatedGrowth
 from bem.tribofilm.properties import PropertyLaw
 
 if TYPE_CHECKING:
