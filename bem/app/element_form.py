@@ -11,10 +11,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from bem.elements.answer import PLACES, answer, answer_notes, balance_heat, table_columns
+from bem.elements.answer import PLACES, all_notes, answer, balance_heat, table_columns
 from bem.elements.element import MODELS, Element, element_template, load_element
 from bem.elements.figure import element_figure
-from bem.elements.running import Running, notes, run_all
+from bem.elements.running import Running, run_all
 from bem.errors import InputError
 from bem.notes import Level
 from bem.scenes.edit import table_text
@@ -131,7 +131,7 @@ def answered(name: str, typed: Mapping[str, str], *, whole: bool = False) -> Ans
     runs: tuple[Running, ...] = ()
     if element.model.oil is not None:
         runs = run_all(element, most=None if whole else PLACES)
-    every = (*element.notes(), *answer_notes(element, runs), *notes(runs))
+    every = all_notes(element, runs)
     cautions = tuple(str(note) for note in every if note.level is not Level.INFO)
     remarks = tuple(str(note) for note in every if note.level is Level.INFO)
     picture = io.BytesIO()

@@ -79,11 +79,10 @@ def element(
     """
     from bem.cli._quantity import new_file
     from bem.cli._terminal import print_text, print_written, show_warnings
-    from bem.elements.answer import answer_notes, balance_heat, contact_words, place_words, table_columns
+    from bem.elements.answer import all_notes, balance_heat, contact_words, place_words, table_columns
     from bem.elements.element import LIFE, MIXED, load_element
     from bem.elements.figure import draw_element
     from bem.elements.plain_bush import PlainBushModel
-    from bem.elements.running import notes as notes_of
     from bem.elements.scene_text import scene_text
     from bem.errors import InputError
     from bem.notes.elements import SURFACES_TOUCH
@@ -136,7 +135,7 @@ def element(
             print_text(sentence)
         if kind == "point-film":
             print_text("The film of kind point-film has no heat; the line film of the answer has it.")
-    notes: Sequence[Note] = [*found.notes(), *answer_notes(found, runs), *notes_of(runs)]
+    notes: Sequence[Note] = all_notes(found, runs)
     if made is not None and not runs and kind in (*MIXED, LIFE):
         notes = [note for note in notes if note.code != SURFACES_TOUCH.code]
     if remarks:
@@ -162,11 +161,10 @@ def element(
 def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...]) -> None:
     """A line for each case."""
     from bem.cli._terminal import Terminal, print_written, show_warnings, table
-    from bem.elements.answer import PLACES, answer_notes, balance_heat
+    from bem.elements.answer import PLACES, all_notes, balance_heat
     from bem.elements.cases import changed_keys, columns, load_cases
     from bem.elements.element import csv_text, read_element
     from bem.elements.plain_bush import PlainBushModel
-    from bem.elements.running import notes as notes_of
     from bem.elements.running import run_all
     from bem.errors import InputError
     from bem.notes.merge import merge
@@ -187,10 +185,10 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
                 runs.append(run_all(balanced[-1], most=PLACES))
         cases = tuple(balanced)
     found = columns(cases, runs, changed)
-    told: list[list[Note]] = []
+    told: list[Sequence[Note]] = []
     for one, each in zip(cases, runs or [()] * len(cases), strict=True):
         if isinstance(one.model, PlainBushModel):
-            told.append([*one.notes(), *answer_notes(one, each), *notes_of(each)])
+            told.append(all_notes(one, each))
         else:
             told.append([note] if (note := one.speed_note()) is not None else [])
     show_warnings(merge(told, _rows_of))

@@ -31,8 +31,10 @@ from bem.elements.gear_scuffing import estimated_bulk, friction_of_gear_tests, s
 from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.running import Running, columns, run_all
+from bem.elements.running import notes as film_notes
 from bem.notes import Note
-from bem.notes.note import percent
+from bem.notes.elements import BUSH_CONFORMS, BUSH_FLOATS, BUSH_LEAKS
+from bem.notes.note import has_code, percent, without
 from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import plain_digits, with_unit
 
@@ -262,6 +264,16 @@ def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...
     if not isinstance(element.model, PlainBushModel):
         return ()
     return bush_notes(element.model, film_of_bush(element, runs))
+
+
+def all_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...]:
+    """Return the notes on an element, on its answer and on its solved films; `solved` as in `answer`.
+
+    Where the film of a bush is outside the model, the cautions that take it for an estimate or an upper bound are left
+    out.
+    """
+    found = (*element.notes(), *answer_notes(element, solved), *film_notes(solved))
+    return without(found, BUSH_CONFORMS, BUSH_LEAKS) if has_code(found, BUSH_FLOATS) else found
 
 
 def table_columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]:

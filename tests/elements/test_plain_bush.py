@@ -10,8 +10,9 @@ import pytest
 from command_line import run_command
 
 from bem import InputError, plan_scene, run_scene
+from bem.app.element_form import answered, file_of
 from bem.contact.conforming import ConformingBodies
-from bem.elements.answer import answer, answer_notes, balance_heat, table_columns
+from bem.elements.answer import all_notes, answer, answer_notes, balance_heat, table_columns
 from bem.elements.cases import columns
 from bem.elements.element import element_template, load_element
 from bem.elements.figure import element_figure
@@ -248,6 +249,29 @@ def test_a_film_as_thick_as_that_of_a_journal_bearing_is_outside_the_model():
     assert estimates[0] == note.values["journal"]
     assert math.isnan(estimates[1])
     assert "journal_bearing_film_estimate [m]" not in columns([thin], [films])
+    assert BUSH_LEAKS.code in codes(all_notes(thin, films))
+
+
+def test_a_film_outside_the_model_has_no_weaker_cautions(tmp_path):
+    """Command, cases and page say that the shaft floats, not that its film is an estimate and an upper bound."""
+    floating = {
+        "shaft_diameter": "25 mm", "clearance": "60 um", "length": "20 mm", "wall": "3 mm", "radial_load": "800 N",
+        "speed": "250 rpm", "first": "steel-52100", "second": "peek", "thermal": "off", "oil.grade": "ISO VG 32",
+        "oil.temperature": "25 degC",
+    }  # fmt: skip
+    weaker = (BUSH_CONFORMS, BUSH_LEAKS)
+    (tmp_path / "floats.toml").write_text(file_of("plain-bush", floating))
+    (tmp_path / "cases.csv").write_text("speed [rpm]\n250\n10\n")
+    assert {note.code for note in weaker} <= set(codes(load_element(tmp_path / "floats.toml").notes()))
+    single = run_command("element", "floats.toml", cwd=tmp_path)
+    page = " ".join(answered("plain-bush", floating).cautions)
+    for shown in (single.stdout + single.stderr, page):
+        assert BUSH_FLOATS.headline in shown
+        assert not any(note.headline in shown for note in weaker)
+    both = run_command("element", "floats.toml", "--cases", "cases.csv", cwd=tmp_path)
+    said = " ".join((both.stdout + both.stderr).split())
+    assert f"row 1: {BUSH_FLOATS.headline}" in said
+    assert all(f"row 2: {note.headline}" in said for note in weaker)
 
 
 def test_cases_of_a_lubricated_bush_are_solved_as_its_answer():
