@@ -111,12 +111,7 @@ def columns(
         if runs:
             found |= _known(_rubbing(cases, runs))
         elif all(one.oil is None or one.friction is not None for one in bushes):  # else friction is that of films
-            power = [friction_power_of(one, None)[0] for one in bushes]
-            found["friction_power [W]"] = [math.nan if each is None else each for each in power]
-            found["bush_temperature [K]"] = [
-                math.nan if each is None else bush_temperature(one, each)
-                for one, each in zip(bushes, power, strict=True)
-            ]
+            found |= _rubbing_dry(bushes)
         if all(one.specific_wear_rate for one in bushes):
             found["wear_life [h]"] = [wear_life(one)[1] for one in bushes]
         del found["hertz_pressure [Pa]"]
@@ -150,6 +145,17 @@ def _rubbing(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dic
         journal = None if film is None else journal_of(model, film)
         found[JOURNAL].append(math.nan if journal is None else journal.minimum_thickness)
     return found
+
+
+def _rubbing_dry(bushes: Sequence[PlainBushModel]) -> dict[str, list[float | str]]:
+    """Return friction and temperature of bushes without films, not a number where no friction is known."""
+    power = [friction_power_of(one, None)[0] for one in bushes]
+    both = list(zip(bushes, power, strict=True))
+    return {
+        "friction_coefficient": [_number(each) / (one.radial_load * one.sliding_speed) for one, each in both],
+        "friction_power [W]": [_number(each) for each in power],
+        "bush_temperature [K]": [math.nan if each is None else bush_temperature(one, each) for one, each in both],
+    }
 
 
 def _known(columns: Mapping[str, list[float | str]]) -> dict[str, list[float | str]]:

@@ -433,6 +433,7 @@ def test_cases_of_a_bush_have_its_answers():
     assert found["pv [Pa*m/s]"][1] == pytest.approx(cases[1].model.mean_pressure * cases[1].model.sliding_speed)
     power = DRY_FRICTION * 500 * cases[1].model.sliding_speed
     assert found["friction_power [W]"] == pytest.approx([power / 2, power])
+    assert found["friction_coefficient"] == pytest.approx([DRY_FRICTION, DRY_FRICTION])
     assert found["bush_temperature [K]"][1] == pytest.approx(293.15 + power / (15 * 15 * 0.02 * 0.02))
     assert f"{found['wear_life [h]'][1]:.3g} h" in dict(answer(cases[1], ()))["wear life"]
     wet = columns([load_element(WATER)])
