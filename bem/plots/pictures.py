@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import LayoutEngine
 from matplotlib.ticker import LogFormatterSciNotation
 from PIL import Image
 
@@ -54,25 +56,43 @@ def settle(figure: Figure, *, sized: bool = False) -> None:
     engine = figure.get_layout_engine()
     if engine is not None:
         engine.execute(figure)
-        low = _without_blank(figure)
-        if not sized and low < (1 - _BLANK) * figure.get_figheight():
-            figure.set_figheight(low)
-            engine.execute(figure)
+        aspects = {axes: aspect for axes in figure.axes if not isinstance(aspect := axes.get_aspect(), str)}
+        if not sized and _without_blank(figure, aspects) < (1 - _BLANK) * figure.get_figheight():
+            _lower(figure, engine, aspects)
         figure.set_layout_engine("none")
 
 
-def _without_blank(figure: Figure) -> float:
-    """The height [inch] of a figure that has its places, less what maps of their own shape leave empty in each row."""
+def _lower(figure: Figure, engine: LayoutEngine, aspects: Mapping[Axes, float]) -> None:
+    """Make a figure lower by the blank rows beside its maps, and lay it out anew.
+
+    Meanwhile the maps fill their places: titles and labels of a map that is smaller than its place stand in its blank
+    rows, where the engine leaves no room for them.
+    """
+    for axes in aspects:
+        axes.set_aspect("auto")
+    engine.execute(figure)
+    figure.set_figheight(_without_blank(figure, aspects))
+    engine.execute(figure)
+    for axes, aspect in aspects.items():
+        axes.set_aspect(aspect)
+    engine.execute(figure)  # ticks are those of the maps' own shapes now
+
+
+def _without_blank(figure: Figure, aspects: Mapping[Axes, float]) -> float:
+    """Return the height [inch] of a figure that is laid out, less the blank rows beside maps of their own shape.
+
+    aspects : of these maps, lengths of a unit along y over those along x.
+    """
     width, height = figure.get_size_inches()
     blank: dict[int, float] = {}
     for axes in figure.axes:
-        place, aspect = axes.get_subplotspec(), axes.get_aspect()
+        place = axes.get_subplotspec()
         if place is None:  # a colour bar: it is as high as its map
             continue
         room = axes.get_position(original=True)
         left = 0.0
-        if not isinstance(aspect, str):
-            left = max(0.0, room.height * height - room.width * width * float(aspect) * axes.get_data_ratio())
+        if axes in aspects:
+            left = max(0.0, room.height * height - room.width * width * aspects[axes] * axes.get_data_ratio())
         row = place.rowspan.start
         blank[row] = min(left, blank.get(row, left))
     return float(max(height - sum(blank.values()), min(height, _LOWEST * max(1, len(blank)))))

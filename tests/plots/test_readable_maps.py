@@ -93,3 +93,31 @@ def test_labels_along_x_of_a_narrow_map_do_not_overlap(ratio):
     boxes = sorted((one.get_window_extent(canvas.get_renderer()) for one in labels), key=lambda box: box.x0)
     assert len(boxes) > 1
     assert all(left.x1 < right.x0 for left, right in pairwise(boxes))
+
+
+@pytest.mark.parametrize(("ratio", "words"), [(0.8, 30), (1.2, 45)])
+def test_no_title_or_label_of_a_row_of_maps_is_cut(ratio, words):
+    """Rows of maps are made lower by their blank rows, in which titles and labels along x stood."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    from bem.plots.pictures import DOTS, settle
+    from bem.plots.style import said_above, style
+
+    with style():
+        figure = Figure(figsize=(8.4, 3.0), dpi=DOTS, layout="constrained")
+        FigureCanvasAgg(figure)
+        maps = figure.subplots(1, 5, sharey=True)
+        for axes in maps:
+            image = axes.imshow(np.eye(8), extent=(0, ratio * 28.8, 0, 28.8), aspect="equal")
+            axes.set_title("cycle 1")
+            axes.set_xlabel("x (µm)")
+        maps[0].set_ylabel("y (µm)")
+        figure.colorbar(image, ax=list(maps), label="contact pressure (MPa)")
+        said_above(figure, "words " * words)
+        settle(figure)
+        boxes = [axes.get_tightbbox() for axes in figure.axes]
+        above = figure._suptitle.get_window_extent().y0
+    assert figure.get_figheight() < 3.0
+    assert min(min(box.x0, box.y0, figure.bbox.x1 - box.x1) for box in boxes) > 0
+    assert max(box.y1 for box in boxes[:-1]) < above
