@@ -24,7 +24,7 @@ from bem.grid import FloatArray, Grid
 from bem.notes.accuracy import NoBar
 from bem.numerics import blocks
 
-_TOLERANCE = 1e-6
+COARSER_TOLERANCE = 1e-6
 """Tolerance of the coarser contact: far below the differences between the grids."""
 _RESOLVED = 0.7
 """Relative change of the curvature from cell to cell (rms) up to which twice the cell resolves a surface: it is
@@ -109,7 +109,7 @@ def solve_coarser(case: ContactCase, max_iterations: int = 2000) -> Coarser:
                 approach=case.approach,
                 mean_gap=mean_gap,
                 hardness=case.hardness,
-                tolerance=_TOLERANCE,
+                tolerance=COARSER_TOLERANCE,
                 initial_pressure=start,
                 max_iterations=max_iterations,
             )

@@ -31,6 +31,8 @@ from bem.quantities import si
 
 FloatArray = NDArray[np.float64]
 
+CERTIFICATE_MARGIN = 0.9
+"""Fraction of the tolerance that a solver aims at, so that rounding cannot spoil the certificate."""
 _ROUND_OFF = 1e-15
 """Round-off of an approach by the change of units, relative to the lengths that it is a sum of."""
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from bem.contact import reductions
 from bem.contact.active_set import Report
-from bem.contact.certificate import certify, displacement_scale
+from bem.contact.certificate import CERTIFICATE_MARGIN, certify, displacement_scale
 from bem.contact.controls import Control
 from bem.contact.grid_workspace import GridResult, IterationBudget, is_flat
 from bem.contact.nested_iteration import start_from_coarser
@@ -31,9 +31,6 @@ from bem.threads import one_blas_thread
 
 FloatArray = NDArray[np.float64]
 Callback = Callable[[int, float, float], object]
-
-_TIGHTER = 0.9
-"""Fraction of the tolerance that the solver aims at, so that rounding in SI units cannot spoil the certificate."""
 
 
 @one_blas_thread
@@ -92,10 +89,10 @@ def solve_contact(
     )
     convolutions_before = operator.count.weighted
     datum, mean, rms_gap = (float(value) for value in reductions.moments(request.gap.reshape(-1)))
-    request.refuse_infeasible(mean, _TIGHTER * tolerance * rms_gap)
+    request.refuse_infeasible(mean, CERTIFICATE_MARGIN * tolerance * rms_gap)
     units = Units.of(request, rms_gap, datum)
     scaled_rms_gap = rms_gap / units.length
-    inner_tolerance = _TIGHTER * tolerance * (scaled_rms_gap or 1.0)
+    inner_tolerance = CERTIFICATE_MARGIN * tolerance * (scaled_rms_gap or 1.0)
     settings = Settings(inner_tolerance, scaled_rms_gap, IterationBudget(max_iterations))
     problem = GridProblem(
         settings,

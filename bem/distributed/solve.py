@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.arguments import is_finite, is_positive
+from bem.contact.certificate import CERTIFICATE_MARGIN
 from bem.contact.grid_workspace import is_flat
 from bem.distributed.bounded_cg import ApproachSearch, SlabProblem, solve_bounded, violations_of_rows
 from bem.distributed.coarse_start import coarse_start
@@ -22,9 +23,6 @@ from bem.materials import Body
 from bem.threads import one_blas_thread
 
 FloatArray = NDArray[np.float64]
-
-_TIGHTER = 0.9
-"""Fraction of the tolerance that the solver aims at, so that rounding cannot spoil the certificate."""
 
 
 @dataclass(frozen=True)
@@ -103,7 +101,7 @@ def solve_slabs(
     _check(gap, grid, pair, ranks, load, approach, hardness, tolerance)
     cap = math.inf if hardness is None else float(hardness)
     least, mean, rms = _moments(gap, grid, ranks)
-    _refuse_infeasible(grid, load, approach, cap, mean, _TIGHTER * tolerance * rms)
+    _refuse_infeasible(grid, load, approach, cap, mean, CERTIFICATE_MARGIN * tolerance * rms)
     convolution = slab_convolution(grid, pair, ranks)
     problem = SlabProblem(convolution, gap - least, cap)
     unit = 2.0 ** round(math.log2(convolution.spectra.largest)) if convolution.spectra.largest > 0 else 1.0
@@ -131,7 +129,7 @@ def solve_slabs(
             problem,
             search,
             start,
-            tolerance=_TIGHTER * tolerance,
+            tolerance=CERTIFICATE_MARGIN * tolerance,
             reference=reference,
             max_iterations=max_iterations,
             callback=callback if ranks.rank == 0 else None,

@@ -28,6 +28,7 @@ from bem.elements.element import Element
 from bem.elements.element_wear import particles_per_hour, wear_per_hour, worn_volume_rate
 from bem.elements.gear_pair import GearModel
 from bem.elements.gear_scuffing import estimated_bulk, friction_of_gear_tests, scuffing_of, sliding_power
+from bem.elements.model import LEAST_ASPERITY_SHARE
 from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.running import Running, columns, run_all
@@ -336,7 +337,9 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
     ratio = thinnest.film_ratio
     regime = "full film" if ratio >= 3 else "mixed lubrication" if ratio < 1 else "thin film, highest asperities touch"
     share = max(one.asperity_share or 0.0 for one in runs)
-    touching = f"; asperities carry some {percent(share)} of the load, an estimate" if share >= 0.01 else ""
+    touching = (
+        f"; asperities carry some {percent(share)} of the load, an estimate" if share >= LEAST_ASPERITY_SHARE else ""
+    )
     if touching and thinnest.mixed_friction is not None:
         touching = f"; asperities carry {percent(share)} of the load"
         film += ", if the film carried the whole load"

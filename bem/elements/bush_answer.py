@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from bem.elements.model import LEAST_ASPERITY_SHARE
 from bem.elements.plain_bush import (
     AREA_FACTOR,
     EXPANSION,
@@ -39,8 +40,6 @@ THICK = 0.1
 """Film over the radial clearance from which the oil carries the shaft as in a journal bearing. There, at L/D = 0.8, the
 film of an endless line is 1.9 times as thick as that of `reference_solutions.journal_bearing`, which is itself up to
 12 % too thick."""
-LEAST_SHARE = 0.01
-"""Share of the load on asperities below which friction is that of the film."""
 
 
 @dataclass(frozen=True)
@@ -119,7 +118,7 @@ def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[f
         return model.friction * slid, f"friction coefficient {model.friction:g}, given"
     if film is not None:
         coefficient = f"friction coefficient {film.power / slid:.3g}"
-        if film.asperity_share < LEAST_SHARE:
+        if film.asperity_share < LEAST_ASPERITY_SHARE:
             return film.power, f"{coefficient}, of the film"
         if film.solved:
             return film.power, (
@@ -173,7 +172,7 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
     power = friction_power_of(model, film)[0] if film is not None or model.oil is None or model.friction else None
     if power is not None:
         notes += _temperature_notes(model, film, bush_temperature(model, power))
-    if film is not None and film.asperity_share < LEAST_SHARE and model.specific_wear_rate:
+    if film is not None and film.asperity_share < LEAST_ASPERITY_SHARE and model.specific_wear_rate:
         notes.append(BUSH_WEARS_IN_FILM(share=film.asperity_share))
     journal = None if film is None else journal_of(model, film)
     if film is not None and journal is not None:
@@ -277,7 +276,7 @@ def _wear(model: PlainBushModel, film: FilmOfBush | None) -> str:
         "mean pressure); Archard's law, the shaft does not wear"
         + (
             "; in mixed lubrication the rate given must be of a test in this liquid"
-            if film is not None and film.asperity_share >= LEAST_SHARE
+            if film is not None and film.asperity_share >= LEAST_ASPERITY_SHARE
             else ""
         )
     )

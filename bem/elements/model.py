@@ -18,6 +18,8 @@ from bem.scenes.common import MaterialScene, PositiveLength, Table, problem
 from bem.scenes.oil import OilScene
 from bem.scenes.units import Dimension, Ratio, Temperature, Volume, WearCoefficient
 
+LEAST_ASPERITY_SHARE = 0.01
+"""Share of the load on asperities below which friction is that of the film."""
 BOUNDARY_FRICTION = 0.12
 """Friction coefficient of asperity contacts without one of the element; steel in mineral oil has 0.10 to 0.15."""
 _SAME = 0.01

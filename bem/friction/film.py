@@ -13,10 +13,14 @@ from typing import TYPE_CHECKING, Protocol
 from bem.errors import Status
 from bem.friction.smooth import SmoothContact
 from bem.grid import FloatArray
+from bem.lubrication.checks import THINNEST_FILM
 from bem.notes import Note
 
 if TYPE_CHECKING:
     from bem.lubrication import FilmSolution, PointFilmSolution
+
+LEAST_EXTRAPOLATED_FILM = 0.5 * THINNEST_FILM
+"""Least thickness [m] of films under loads at which none is solved: half of that below which the model is not valid."""
 
 
 @dataclass(frozen=True, eq=False)

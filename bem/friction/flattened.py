@@ -35,14 +35,12 @@ from bem.friction.smooth import PointContact
 from bem.friction.solution import MixedSolution
 from bem.friction.solve import solve_setup
 from bem.grid import FloatArray
+from bem.lubrication.checks import MOLECULAR_FILM
 from bem.lubrication.waves.flattening import FlattenedHeights, flatten_heights
 from bem.materials import Body
 from bem.notes.friction import FLATTENED_TOO_HIGH
 from bem.reference_solutions.hertz import cylinder_contact, ellipse_contact
 
-LEAST_FILM = 1e-9
-"""Central film under the whole load [m], a few molecules, below which it flattens nothing: rough films with that least
-film touch nearly everywhere there (99 % of the load at 0.6 and 0.8 nm)."""
 LEAST_AT_REST, LEAST_MOVING = 0.2, 0.65
 """Smallest central film over rms heights at which load share and friction held beside rough films, of bodies whose
 roughness is at rest or moves."""
@@ -101,14 +99,14 @@ def solve_flattened(
     rough = (lower if lower.any() else None, upper if upper.any() else None)
     flattened = flatten_heights(whole.solution, hertz, rough, setup.grid)
     central = whole.solution.central_thickness
-    if central < LEAST_FILM:
+    if central < MOLECULAR_FILM:
         flattened = replace(flattened, heights=lower + upper, amplitude_ratio=1.0)
     found = solve_setup(setup, flattened.heights, speeds, initial)
     notes = found.notes
     moves = any(one is not None and speed != 0 for one, speed in zip(rough, speeds, strict=True))
     least = LEAST_MOVING if moves else LEAST_AT_REST
-    if central < LEAST_FILM:
-        notes = (FLATTENED_TOO_HIGH(reason="molecular", film=central, least=LEAST_FILM), *notes)
+    if central < MOLECULAR_FILM:
+        notes = (FLATTENED_TOO_HIGH(reason="molecular", film=central, least=MOLECULAR_FILM), *notes)
     elif flattened.lambda_ratio < least:
         notes = (FLATTENED_TOO_HIGH(reason="ratio", ratio=flattened.lambda_ratio, least=least), *notes)
     solution = replace(

@@ -15,11 +15,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bem.errors import InputError
-from bem.friction.film import PatchFilm, smooth_gap
+from bem.friction.film import LEAST_EXTRAPOLATED_FILM, PatchFilm, smooth_gap
 from bem.friction.smooth import LineContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution
-from bem.lubrication.checks import THINNEST_FILM
 from bem.lubrication.inlet_heating import hertz_over_modulus, inlet_heating_factor
 from bem.lubrication.line.case import MOES_LOADS, LineCase, load_range
 from bem.lubrication.line.problem import line_scales
@@ -34,8 +33,6 @@ BALANCE_POINTS = 400
 """Nodes of the coarse mesh, on which the balance is first looked for."""
 MOLECULAR_LOAD = 1e4
 """Moes' load parameter M up to which line films are solved, however thin they are."""
-LEAST_FILM = 0.5 * THINNEST_FILM
-"""Smallest film thickness [m] above `MOLECULAR_LOAD`: half of the thickness below which the film model is not valid."""
 HOT_FRACTION = 0.9
 """Fraction of the largest load that is used with heat; smaller where inlet heating takes more than a fifth of the
 viscosity (`_hot_fraction`)."""
@@ -199,9 +196,9 @@ def largest_film_load(contact: LineContact, speeds: Sequence[float]) -> float:
     """Return the load on the whole width [N] up to which films are solved.
 
     The limit is one of Moes' load parameter M, `MOLECULAR_LOAD`. Above it films are solved as long as their asymptotes
-    are thicker than `LEAST_FILM`. M goes with the load over the root of the modulus; where the modulus itself goes with
-    the load (`OilVolume.LOADED`), M goes with the root of the load. With heat the oil is that which inlet heating
-    leaves, so that a film too hot for a load is a film model that ends, at this speed alone.
+    are thicker than `LEAST_EXTRAPOLATED_FILM`. M goes with the load over the root of the modulus; where the modulus
+    itself goes with the load (`OilVolume.LOADED`), M goes with the root of the load. With heat the oil is that which
+    inlet heating leaves, so that a film too hot for a load is a film model that ends, at this speed alone.
     """
     largest = contact.width * load_range(contact.radius, contact.contact_modulus, speeds, contact.lubricant)[1]
     if math.isfinite(largest):
@@ -236,7 +233,7 @@ def _hot_fraction(contact: LineContact, speeds: Sequence[float], load: float) ->
 
 
 def _load_of_least_film(contact: LineContact, speeds: Sequence[float]) -> float:
-    """Return Moes' load parameter M under which the film is `LEAST_FILM` thick.
+    """Return Moes' load parameter M under which the film is `LEAST_EXTRAPOLATED_FILM` thick.
 
     The thicker one of two asymptotes of the minimum film counts: 1.98 M^(-1/5), elastic and isoviscous (Herrebrugh
     1968: 2.05), and 0.98 L^(3/4) M^(-1/8), elastic and piezoviscous (Moes 2000; central film 1.31).
@@ -244,7 +241,7 @@ def _load_of_least_film(contact: LineContact, speeds: Sequence[float]) -> float:
     oil = contact.lubricant
     scales = line_scales(1.0, contact.radius, contact.contact_modulus, abs(sum(speeds)), oil.viscosity)
     material = float(oil.log_viscosity_ratio(np.zeros(1))[1][0]) * scales.pressure
-    films = scales.film / LEAST_FILM
+    films = scales.film / LEAST_EXTRAPOLATED_FILM
     return max((1.98 * films) ** 5, (0.98 * material**0.75 * films) ** 8)
 
 

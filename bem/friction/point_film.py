@@ -17,11 +17,10 @@ from scipy.interpolate import RectBivariateSpline
 from scipy.optimize import brentq
 
 from bem.errors import Status
-from bem.friction.film import PatchFilm, smooth_gap
+from bem.friction.film import LEAST_EXTRAPOLATED_FILM, PatchFilm, smooth_gap
 from bem.friction.smooth import PointContact
 from bem.grid import FloatArray
 from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
-from bem.lubrication.checks import THINNEST_FILM
 from bem.lubrication.point.arguments import MOES_LOADS
 from bem.lubrication.point.similarity import nijenbanning_film, point_scales
 from bem.lubrication.point.validity import but_unknown
@@ -42,8 +41,6 @@ COARSE_ERROR = 0.03
 LARGEST_MOES_LOAD, GROWTH = 2500.0, 1.25
 """Moes' load M up to which a film is solved on `BALANCE_CELLS`, and its power of the number of cells. Above it the
 solver stalls, because the side lobes are narrower than a cell."""
-LEAST_FILM = 0.5 * THINNEST_FILM
-"""Smallest central thickness [m] of extrapolated films: half of the thickness below which the model is not valid."""
 LATTICE_RATIO = 3.0
 """Ratio of neighbouring loads at which the power of the viscosity that a film follows is found."""
 _TRIED = (1.0, 0.5, 0.25)
@@ -88,11 +85,11 @@ class SolvedPointFilm:
 
     @cached_property
     def largest_load(self) -> float:
-        """Load [N] at which the fitted film is `LEAST_FILM` thick; see `Film`."""
+        """Load [N] at which the fitted film is `LEAST_EXTRAPOLATED_FILM` thick; see `Film`."""
         solved = self.solved_load
 
         def thicker(decades: float) -> float:
-            return math.log(_fitted_film(self.contact, self.speeds, solved * 10**decades) / LEAST_FILM)
+            return math.log(_fitted_film(self.contact, self.speeds, solved * 10**decades) / LEAST_EXTRAPOLATED_FILM)
 
         if thicker(0.0) <= 0:
             return solved

@@ -53,6 +53,9 @@ GLASS = 1e12
 LARGEST_FILM = 0.02
 """Film over radius up to which the model holds: the gap where pressure begins, 15 films, is then 0.77 of the radius
 upstream."""
+MOLECULAR_FILM = 1e-9
+"""Film of a few molecules [m]: below it oil is no continuum, and rough surfaces touch nearly everywhere (99 % of the
+load at 0.6 and 0.8 nm)."""
 THINNEST_FILM = 2e-9
 """Film [m] of four or five molecules; oil is layered below about 5 nm, D. Y. C. Chan and R. G. Horn, *J. Chem. Phys.*
 83 (1985) 5311."""

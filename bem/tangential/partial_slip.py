@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.contact import ContactSolution
+from bem.contact.certificate import CERTIFICATE_MARGIN
 from bem.contact.grid_workspace import IterationBudget
 from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
@@ -23,7 +24,6 @@ from bem.tangential.friction_laws import SlipFriction
 from bem.tangential.initial_tractions import jaeger_start, start_from_coarser
 from bem.tangential.operator import TangentialOperator, tangential_operator
 from bem.tangential.problem import (
-    SAFETY,
     SlipProblem,
     check_force,
     check_no_slip_speed,
@@ -181,7 +181,7 @@ def solve_step(
             jaeger = jaeger_start(problem) if previous is None else None
             traction = None if previous is None else previous.traction
             start = start_from_coarser(problem, traction, budget) if jaeger is None else jaeger
-        result = solve_slip(problem, start, SAFETY * tolerance, budget)
+        result = solve_slip(problem, start, CERTIFICATE_MARGIN * tolerance, budget)
     notes = (PRESSING_PATH(reason="at-once"),) if previous is None and under_pressure.any() else ()
     return _solution(step, problem, result, under_pressure, tolerance, budget, notes)
 

@@ -17,9 +17,6 @@ from bem.grid import FloatArray, Grid
 from bem.tangential.friction_laws import SlipFriction
 from bem.tangential.operator import TangentialOperator
 
-SAFETY = 0.9
-"""Fraction of the tolerance that the solvers aim at, so that rounding cannot spoil the certificate."""
-
 _ROUNDING = 1e-6
 """Fraction of the largest imposed movement below which displacements are rounding: a single cell with pressure and
 without force does not move, while the surfaces around it do."""

@@ -37,6 +37,7 @@ from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, gmres
 
 from bem.contact import ContactSolution
+from bem.contact.certificate import CERTIFICATE_MARGIN
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
@@ -47,7 +48,6 @@ from bem.tangential.friction_discs import project_to_friction_discs, project_wit
 from bem.tangential.friction_laws import SlipFriction
 from bem.tangential.operator import SlipOperator, tangential_operator
 from bem.tangential.problem import (
-    SAFETY,
     LocalFriction,
     check_force,
     check_no_slip_speed,
@@ -124,10 +124,10 @@ def solve_rolling(
     under_pressure = operator.displacement_under_pressure(pressure)
     imposed_slip = rigid_slip(grid, creep, spin) + slip_over_cell(grid, under_pressure)
     problem = RollingProblem(operator, bound, imposed_slip, total)
-    result = _solve(problem, SAFETY * tolerance, max_iterations)
+    result = _solve(problem, CERTIFICATE_MARGIN * tolerance, max_iterations)
     if falling is not None:
         problem = replace(problem, falling=falling)
-        result = _solve(problem, SAFETY * tolerance, max_iterations, result)
+        result = _solve(problem, CERTIFICATE_MARGIN * tolerance, max_iterations, result)
     failed = Status.MAX_ITERATIONS if result.iterations >= max_iterations else Status.STALLED
     solution = _solution(problem, result, under_pressure, creep * grid.spacing[0], tolerance, failed)
     fields = {name: getattr(solution, name)[:, inside] for name in ("traction", "displacement", "slip")}
@@ -155,7 +155,7 @@ def solve_rolling_problem(
     start : tractions to start from (2, nx, ny) [Pa].
     """
     begin = None if start is None else _RollingResult(start[:, problem.bound > 0], np.zeros(2), 0)
-    result = _solve(problem, SAFETY * tolerance, max_iterations, begin)
+    result = _solve(problem, CERTIFICATE_MARGIN * tolerance, max_iterations, begin)
     failed = Status.MAX_ITERATIONS if result.iterations >= max_iterations else Status.STALLED
     return _solution(problem, result, displacement, creepage * problem.operator.grid.spacing[0], tolerance, failed)
 

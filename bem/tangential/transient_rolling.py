@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bem.contact import ContactSolution
+from bem.contact.certificate import CERTIFICATE_MARGIN
 from bem.contact.grid_workspace import IterationBudget
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
@@ -35,7 +36,6 @@ from bem.tangential.certificate import certify
 from bem.tangential.friction_laws import SlipFriction
 from bem.tangential.operator import TangentialOperator, tangential_operator
 from bem.tangential.problem import (
-    SAFETY,
     SlipProblem,
     check_force,
     check_no_slip_speed,
@@ -232,7 +232,7 @@ class _March:
         imposed = earlier - self.under_pressure - moved
         problem = SlipProblem(self.operator, self.bound, imposed, traction_sum)
         budget = IterationBudget(self.max_iterations)
-        trial, goal = before.traction - self.operator.stiffness * before.slip, SAFETY * self.tolerance
+        trial, goal = before.traction - self.operator.stiffness * before.slip, CERTIFICATE_MARGIN * self.tolerance
         for _ in range(_TIGHTENINGS):
             traction, elastic, shift = np.zeros_like(imposed), np.zeros_like(imposed), np.zeros(2)
             if cells.any():

@@ -9,7 +9,7 @@ from small_scenes import oiled_ball
 from bem import Grid, InputError, generate_surface, load_scene, solve_rough_point_film
 from bem.kinds.point_film.touching import REMEDY, TouchingScene
 from bem.lubrication import MeasuredHeights
-from bem.lubrication.point.rough_film import LEAST_FILM
+from bem.lubrication.checks import MOLECULAR_FILM
 from bem.runs import plan_scene, run_scene
 
 WAVES = {"hurst": 0.8, "rolloff_wavelength": 100e-6, "cutoff_wavelength": 60e-6}
@@ -158,4 +158,4 @@ def test_a_patch_without_a_size_is_refused_before_any_work():
 
 @pytest.mark.internal
 def test_the_least_film_is_the_solvers():
-    assert TouchingScene(boundary_friction=0.1).least_film == LEAST_FILM
+    assert TouchingScene(boundary_friction=0.1).least_film == MOLECULAR_FILM

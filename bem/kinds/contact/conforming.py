@@ -18,9 +18,6 @@ if TYPE_CHECKING:
     from bem.profiles.curved_contact import CurvedContact
     from bem.stress import StressSummary
 
-_COARSER_TOLERANCE = 1e-6
-"""Tolerance of the contact on the grid of twice the cell."""
-
 
 def solve_conforming(scene: ContactScene, grid: Grid, undeformed: FloatArray, tolerance: float) -> CurvedContact:
     """Solve the contact of a scene on a grid whose y is the arc length of the rail."""
@@ -81,7 +78,7 @@ class ConformingResponse:
         """See `Response`; of the lateral force it is the difference to the grid of twice the cell."""
         from bem.accuracy import Coarser, ErrorBars, contact_bars
         from bem.accuracy.bars import GRID
-        from bem.accuracy.coarsened import half_grid, is_narrow
+        from bem.accuracy.coarsened import COARSER_TOLERANCE, half_grid, is_narrow
         from bem.contact.certificate import free_edges_reached
         from bem.errors import Status
         from bem.notes.accuracy import NoBar
@@ -93,7 +90,7 @@ class ConformingResponse:
         if reason is not None:
             return contact_bars(case, Coarser(None, None, reason)) | ErrorBars.unknown(names, reason)
         grid = half_grid(case.grid)
-        there = solve_conforming(scene, grid, build.shape_of(scene.shape, grid), _COARSER_TOLERANCE)
+        there = solve_conforming(scene, grid, build.shape_of(scene.shape, grid), COARSER_TOLERANCE)
         if there.contact.status is not Status.CONVERGED:
             failed = Coarser(None, None, NoBar.COARSER_UNSOLVED)
             return contact_bars(case, failed) | ErrorBars.unknown(names, NoBar.COARSER_UNSOLVED)

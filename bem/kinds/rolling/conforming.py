@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
     from bem.profiles.curved_rolling import CurvedRolling
 
-_COARSER_TOLERANCE = 1e-6
-"""Tolerance of the contact on the grid of twice the cell."""
-
 
 def solve_conforming_rolling(scene: RollingContactScene, grid: Grid, tolerance: float) -> tuple[Site, CurvedRolling]:
     """Solve pressures and tractions of a scene on a grid whose y is the arc length of the rail."""
@@ -62,7 +59,7 @@ def bars_of_conforming(scene: RollingContactScene, site: Site, found: CurvedRoll
     difference to that grid."""
     from bem.accuracy import Coarser, ContactCase, ErrorBars, contact_bars
     from bem.accuracy.bars import GRID
-    from bem.accuracy.coarsened import half_grid, is_narrow
+    from bem.accuracy.coarsened import COARSER_TOLERANCE, half_grid, is_narrow
     from bem.accuracy.sticking import ROLL_RULES, sticking_bars
     from bem.contact.certificate import free_edges_reached
     from bem.notes.accuracy import NoBar
@@ -76,7 +73,7 @@ def bars_of_conforming(scene: RollingContactScene, site: Site, found: CurvedRoll
     unknown = (*figures, "lateral_force", "load", "contact_area_fraction")
     if reason is not None:
         return ErrorBars.unknown(unknown, reason)
-    there, coarse = solve_conforming_rolling(scene, half_grid(site.grid), _COARSER_TOLERANCE)
+    there, coarse = solve_conforming_rolling(scene, half_grid(site.grid), COARSER_TOLERANCE)
     if not coarse.contact.status is coarse.rolling.status is Status.CONVERGED:
         return ErrorBars.unknown(unknown, NoBar.COARSER_UNSOLVED)
     friction = scene.roll.friction

@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 
 from bem.plots.cases import grouped, rows_of
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, map_of, name_case, prefix
+from bem.plots.over import COLOURS
+from bem.plots.style import label, map_of, name_case, prefix
 
 _MOST_MAPS = 4
-_COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PINK, SKY, BLACK)
 
 
 def _time(run: Any) -> tuple[Any, str]:
@@ -29,7 +29,7 @@ def _over_time(run: Any, figure: Figure, name: str, text: str, unit: str) -> Non
     time, axis = _time(run)
     factor, shown = prefix(run.dataset[name].values, unit)
     films = grouped(run, name)
-    for colour, (film, values) in zip(_COLOURS * 9, films, strict=False):
+    for colour, (film, values) in zip(COLOURS * 9, films, strict=False):
         own = values * factor
         axes.plot(time, own.mean(axis=0), color=colour, label=film)
         if len(own) > 1:
@@ -50,7 +50,7 @@ def _pressure(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
     names = ("sample_thickness", "sample_mean_pressure", "sample_hardness")
     for colour, (one, two, three) in zip(
-        _COLOURS * 9, zip(*(rows_of(run, n) for n in names), strict=True), strict=False
+        COLOURS * 9, zip(*(rows_of(run, n) for n in names), strict=True), strict=False
     ):
         order = np.argsort(one[1])
         thickness = one[1][order] * factor_h

@@ -51,8 +51,8 @@ COARSE_TOLERANCE = 1e-4
 """Tolerance on the way to the final mesh; the discretisation errors there are larger."""
 START_LOAD = 0.3
 """Load M at which Martin's rigid isoviscous film is the first iterate."""
-LEAST_SHARE = 1e-3
-"""Share of all stresses with which continuation in shear thinning begins."""
+FIRST_THINNING_SHARE = 1e-3
+"""Share of all shear stresses with which the continuation in shear thinning begins: the oil is nearly Newtonian."""
 FIRST_FACTOR, SMALLEST_THINNING_FACTOR = 4.0, 1.02
 """First factor of the continuation in shear thinning, and the factor at which it gives up."""
 SMALLEST_LOAD_FACTOR, LARGEST_LOAD_FACTOR, EASY_STEPS = 1.002, 10.0, 10
@@ -156,7 +156,9 @@ def continue_in_shear_law(problem: Problem, cells: int, tolerance: float, limit:
             start = remesh(at, start, coarse, None)
         return newton(at, start, COARSE_TOLERANCE, limit)
 
-    found = continue_by_factors(solve, newtonian, LEAST_SHARE, 1.0, FactorRule(FIRST_FACTOR, SMALLEST_THINNING_FACTOR))
+    found = continue_by_factors(
+        solve, newtonian, FIRST_THINNING_SHARE, 1.0, FactorRule(FIRST_FACTOR, SMALLEST_THINNING_FACTOR)
+    )
     if found.value < 1.0:
         residual = max(found.last.residual, 1 - found.value)
         return replace(found.last, iterations=found.iterations, residual=residual, converged=False)

@@ -23,6 +23,8 @@ from bem.lubrication.results import FilmSolution
 from bem.lubrication.time_stepping import Derivative, Reached
 from bem.notes.lubrication import FIRST_FILM
 
+MESH_HALF_LENGTH = 50.0
+"""Half-length of the fixed mesh of a film in time or beside a profile, in half-widths of the pressure."""
 SETTLING = (0.3, 0.03, 1e-3)
 """Lengths of implicit steps towards the first film, where its steady film is not found directly, in units of the time
 that the oil takes through half the contact."""

@@ -17,7 +17,15 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation
 from bem.lubrication.line.case import LineCase, check_entrainment
-from bem.lubrication.line.march import Contact, March, Operation, Scaling, build_solution_at, state_from_solution
+from bem.lubrication.line.march import (
+    MESH_HALF_LENGTH,
+    Contact,
+    March,
+    Operation,
+    Scaling,
+    build_solution_at,
+    state_from_solution,
+)
 from bem.lubrication.line.problem import line_scales, scaled_problem
 from bem.lubrication.line.time_step import StepOutcome, TransientState, build_step, elastic_film, fixed_mesh, time_step
 from bem.lubrication.results import FilmSolution
@@ -29,8 +37,6 @@ TOLERANCE = 1e-8
 """Largest residual of a film, relative to the local film and to the load."""
 FINE = 2.0
 """Half-length of the uniform cells at least, in units of the half-width of the pressure."""
-FAR = 50.0
-"""Half-length of the mesh, in units of the half-width of the pressure."""
 LEAST_FAR = 4.0
 """Half-length of the mesh at least, in units of that of the uniform cells."""
 NEWTON_STEPS = 15
@@ -93,7 +99,7 @@ class ShapedContact:
         scales = line_scales(case.load, radius, modulus, entrainment, oil.viscosity)
         width = math.sqrt(8 * scales.load / math.pi + 2 * film.central_thickness / scales.film)
         inner = max(half_length / scales.length, FINE * width)
-        mesh = fixed_mesh(inner, max(FAR * width, LEAST_FAR * inner), cells)
+        mesh = fixed_mesh(inner, max(MESH_HALF_LENGTH * width, LEAST_FAR * inner), cells)
         speeds, load = tuple(case.speeds), case.load
         scaling = Scaling(scales, load, entrainment, scaled_problem(scales, scales.load, oil, sliding=1.0))
         operation = Operation(lambda time: load, lambda time: speeds)

@@ -17,6 +17,7 @@ from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.line.case import LineCase, check_speeds
 from bem.lubrication.line.continuation import typical_half_width
 from bem.lubrication.line.march import (
+    MESH_HALF_LENGTH,
     Contact,
     March,
     Operation,
@@ -38,8 +39,6 @@ from bem.lubrication.time_stepping import MarchState, Schedule, first_of, load_m
 from bem.plausibility import lubricant_arguments, notes_on_arguments, with_argument_notes
 from bem.threads import one_blas_thread
 
-FAR = 50.0
-"""Half-length of the mesh, in half-widths of the pressure."""
 BARELY_FLOODED = 0.99
 """Share of the flooded oil layer with which a march begins where more oil arrives: a steady film has no place for the
 excess."""
@@ -208,7 +207,7 @@ def _discretised(
         reach = math.sqrt(8 * scales.load / math.pi + 2 * film)
     reach = max(reach, 1e-12)
     scaling = Scaling(scales, highest, speed, scaled_problem(scales, scales.load, contact.lubricant, sliding=1.0))
-    return scaling, fixed_mesh(2.0 * reach, FAR * reach, 2 * (points // 2))
+    return scaling, fixed_mesh(2.0 * reach, MESH_HALF_LENGTH * reach, 2 * (points // 2))
 
 
 def _reference_speed(schedule: Schedule, contact: Contact, thickness: float) -> float:

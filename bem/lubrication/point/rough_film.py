@@ -21,6 +21,7 @@ from bem.arguments import is_positive
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation, cavitation_of
+from bem.lubrication.checks import MOLECULAR_FILM
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.arguments import Speeds, check_arguments, check_extent, checked_edges, entrainment
 from bem.lubrication.point.certificate import Certificate, certify, swift_stieber_fraction
@@ -40,8 +41,6 @@ from bem.threads import one_blas_thread
 
 SHAPE = (128, 128)
 """Cells by default."""
-LEAST_FILM = 1e-9
-"""Film at which surfaces touch by default [m]: a few molecules, below which oil is no continuum."""
 LARGEST_CREATED_OIL = 0.01
 """Created oil over the throughput above which there is a note."""
 
@@ -132,7 +131,7 @@ def solve_rough_point_film(
     speeds: Sequence[float] | Sequence[Sequence[float]],
     lubricant: Lubricant,
     heights: Heights,
-    least_film: float = LEAST_FILM,
+    least_film: float = MOLECULAR_FILM,
     shape: tuple[int, int] | None = None,
     tolerance: float = 1e-8,
     extent: Sequence[float] | None = None,
