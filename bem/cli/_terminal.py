@@ -401,12 +401,12 @@ def show_remarks(notes: Sequence[str]) -> None:
 
 def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     """The figures of a run."""
-    from bem.plots.report import summary_rows
+    from bem.plots.report import status_words, summary_rows
     from bem.plots.tables import input_share_tables, is_list
 
     known = [name for name in headline if summary.get(name) is not None]
     rows = summary_rows(summary, [name for name in known if not is_list(summary[name])])
-    rows.append(("status", summary["status"]))
+    rows.append(("status", status_words(summary)))
     rows += [("outside the model", text) for text in summary.get("outside_model", ())]
     if remarks := sum(note["level"] == Level.INFO for note in of_summary(summary)):
         rows.append(("remarks", f"{remarks}, in the report and in summary.json"))

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.notes import Level, of_summary
+from bem.notes.checks import NOT_SETTLED
 from bem.plots.draw import Drawn
 from bem.plots.labels import prefix
 from bem.plots.tables import (
@@ -59,6 +60,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
         summary=summary,
         scene=run.scene,
         converged=summary["status"] == "converged",
+        status=status_words(summary),
         beyond=summary.get("outside_model", ()),
         notes=notes,
         remarks=[note for note in notes if note["level"] == Level.INFO],
@@ -80,6 +82,15 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
     path = Path(run.path) / REPORT
     write_text(path, page)
     return path
+
+
+def status_words(summary: Mapping[str, Any]) -> str:
+    """Return the status of a run; of converged wear cycles that have not settled with both facts in one line."""
+    status = str(summary["status"])
+    unsettled = any(note["code"] == NOT_SETTLED.code for note in of_summary(summary))
+    if status != "converged" or not unsettled:
+        return status
+    return f"{status} (equations solved at every cycle), not settled (surfaces still changing at the last cycle)"
 
 
 def summary_rows(summary: Mapping[str, Any], names: Sequence[str]) -> list[tuple[str, str]]:

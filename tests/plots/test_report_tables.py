@@ -5,7 +5,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from bem.plots.report import spelled, summary_rows, with_error, write_report
+from bem.cli._terminal import print_numbers
+from bem.notes.checks import NOT_SETTLED
+from bem.plots.report import spelled, status_words, summary_rows, with_error, write_report
 from bem.plots.tables import figure_tables, name_and_unit, origin_table, summary_of_points
 from bem.scenes import get_kind
 from bem.scenes.records import UNITS, figures
@@ -137,6 +139,24 @@ def test_what_tells_rows_apart_comes_first_in_every_table():
     assert len(tables) == 2
     assert all(table.head[0] == "variant" and len(table.head) <= 7 for table in tables)
     assert [table.rows[0][0] for table in tables] == ["a", "a"]  # one load for all is no name of a row
+
+
+def test_converged_cycles_that_have_not_settled_say_both_in_one_line(tmp_path, capsys):
+    """The status "converged" stood beside the caution that the wear cycles have not settled."""
+    summary = {
+        "scene": "s", "kind": "wear", "version": "1", "seed": 1, "wall_time_s": 1.0, "status": "converged",
+        "where": "", "outside_model": [], "seconds_by_stage": {},
+        "notes": [NOT_SETTLED(drifting="friction by 5 %", window="25, or half of all").as_dict()],
+    }  # fmt: skip
+    both = "converged (equations solved at every cycle), not settled (surfaces still changing at the last cycle)"
+    assert status_words(summary) == both
+    print_numbers(summary, [])
+    assert f"status  {both}" in capsys.readouterr().out
+    (tmp_path / "scene.toml").write_text('kind = "wear"\n')
+    run = SimpleNamespace(path=tmp_path, summary=json.loads(json.dumps(summary)), scene={}, dataset=None)
+    assert f"{both}</span>" in write_report(run, [], ()).read_text("utf-8")
+    assert status_words(summary | {"notes": []}) == "converged"
+    assert status_words(summary | {"status": "stalled"}) == "stalled"
 
 
 def test_the_report_has_no_paragraph_of_numbers(tmp_path):
