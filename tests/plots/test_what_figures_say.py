@@ -408,6 +408,27 @@ def test_area_over_load_of_a_sweep_has_all_points_and_the_plastic_limit():
         np.testing.assert_allclose(points.lines[0].get_xdata(), pressure.ravel())
 
 
+def test_every_point_of_area_over_load_has_both_of_its_bars_and_the_legend_says_which():
+    """Bars had no name: some had the scatter from place to place in mind, which no bar showed."""
+    area = np.array([1e-4, 2e-3, 3e-2])
+    found = {
+        "reduced_pressure": np.array([1e-4, 1e-3, 1e-2]),
+        "contact_area_fraction": area,
+        "contact_area_fraction_error": 0.1 * area,
+        "contact_spots": np.array([4.0, 25.0, 400.0]),
+    }
+    figure = Figure()
+    variables = {name: Variable(("load",), values, "1", name) for name, values in found.items()}
+    all_figures()["area-over-load"].draw(run_of("contact", "", variables), figure)
+    bars = {item.get_label(): item.lines[2][0].get_segments() for item in figure.axes[0].containers}
+    half = {name: [0.5 * np.ptp(one[:, 1]) for one in each] for name, each in bars.items()}
+    np.testing.assert_allclose(half["computed ± numerical error"], 0.1 * area, rtol=1e-12)
+    scatter = half["scatter from place to place, by contact spots"]
+    np.testing.assert_allclose(scatter, area * [0.25, 0.1, 0.025], rtol=1e-12)
+    (legend,) = (one for one in figure.axes[0].get_children() if one.__class__.__name__ == "Legend")
+    assert {text.get_text() for text in legend.get_texts()} > set(half)
+
+
 def test_area_over_load_of_small_areas_has_no_empty_half():
     """Areas of 1e-4 stood below four empty decades up to full contact."""
     small = {"reduced_pressure": np.full(1, 1e-4), "contact_area_fraction": np.full(1, 2e-4)}

@@ -161,6 +161,7 @@ def _area_over_load(run: Any, figure: Figure) -> None:
     error = (
         np.ravel(_array(run, "contact_area_fraction_error")) if "contact_area_fraction_error" in run.dataset else None
     )
+    _scatter_of_places(run, axes, pressure, area, known)
     axes.errorbar(
         pressure[known],
         area[known],
@@ -169,13 +170,37 @@ def _area_over_load(run: Any, figure: Figure) -> None:
         markersize=4,
         capsize=2,
         color=BLUE,
-        label="computed" if np.count_nonzero(known) > 1 else "this run",
+        label=("computed" if np.count_nonzero(known) > 1 else "this run")
+        + (" ± numerical error" if error is not None else ""),
     )
     axes.set_xlabel("nominal pressure p / (E* × rms slope h′)")
     axes.set_ylabel("contact area fraction")
     axes.set_xlim(reach[0], reach[-1])
     axes.set_ylim(top=min(1.5, 2.0 * max(persson[-1], min(bush[-1], 1.0), float(area[known].max()))))
     axes.legend(loc="upper left")
+
+
+def _scatter_of_places(run: Any, axes: Any, pressure: Any, area: Any, known: Any) -> None:
+    """Draw for each case how the area scatters from place to place of the surface, by its number of contact spots."""
+    from bem.scenes.checks.outcome import scatter_of_places
+
+    name = next((name for name in ("contact_spots_of_map", "contact_spots") if name in run.dataset), None)
+    if name is None:
+        return
+    spots = np.broadcast_to(np.ravel(_array(run, name)), pressure.shape)
+    known = known & (spots > 0)
+    if not known.any():
+        return
+    axes.errorbar(
+        pressure[known],
+        area[known],
+        yerr=area[known] * np.array([scatter_of_places(count) for count in spots[known]]),
+        fmt="none",
+        elinewidth=4.0,
+        ecolor=BLUE,
+        alpha=0.25,
+        label="scatter from place to place, by contact spots",
+    )
 
 
 _SAME_LIMIT = 1e-3
@@ -348,7 +373,9 @@ FIGURES = (
         "Contact area over the nominal pressure, divided by contact modulus and rms slope of both surfaces together, "
         "beside the theories of Persson (J. Chem. Phys. 115, 2001) and of Bush, Gibson and Thomas (Wear 35, 1975) for "
         "elastic bodies. The slope is that of neighbouring cells. Pressures limited by the hardness need more area, at "
-        "least the load over the hardness (plastic limit).",
+        "least the load over the hardness (plastic limit). Narrow bars are numerical errors; wide, light ones "
+        "estimate how the area scatters between places of the surface: by half over the square root of the number of "
+        "contact spots.",
         ("reduced_pressure", "contact_area_fraction"),
         _area_over_load,
         (5.4, 4.2),

@@ -135,6 +135,11 @@ _SCATTER = 0.5
 30 spots, capped at the hardness of a hard steel."""
 
 
+def scatter_of_places(spots: float) -> float:
+    """Return the relative scatter of the contact area from place to place of a surface with so many contact spots."""
+    return _SCATTER / math.sqrt(spots)
+
+
 @outcome_check
 def few_contact_spots(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Error bars are those of the cells. Another place of the same surface has other summits, and few of them touch."""
@@ -144,7 +149,7 @@ def few_contact_spots(facts: Facts, outcome: Outcome) -> Iterator[Note]:
         return
     fewest = min(known)
     if fewest < FEWEST_SPOTS:
-        yield FEW_SPOTS(spots=int(fewest), scatter=_SCATTER / math.sqrt(fewest))
+        yield FEW_SPOTS(spots=int(fewest), scatter=scatter_of_places(fewest))
 
 
 @outcome_check
