@@ -42,7 +42,7 @@ def test_every_key_that_is_cited_has_an_entry():
             *(cited._MOVING_HEAT, cited._FLASH, cited._STRESSES, cited._POINT_FILM, cited._LINE_FILM, cited._WAVES),
             *(cited._SHARED, *cited._OF_MATERIALS.values()),
             *(cited._SEAMS_CLOSED, cited._UNCOUPLED, cited._FLOW_FACTORS, cited._COUPLING, cited._FILM_DEFECT),
-            *(cited._PROFILES, cited._CONFORMING),
+            *(cited._PROFILES, cited._CURVED_RAIL),
         )
         for key in table
     }

@@ -81,7 +81,7 @@ _RELAXING_IN_MOTION = {
     "rockafellar1976": "steady motion where the retarded part is large",
 }
 _FROM_REST = {"kalker1971": "transient rolling"}
-_CONFORMING = {"vollebregt2021": "contact on the curved rail", "polonsky1999": "conjugate gradients of the contact"}
+_CURVED_RAIL = {"vollebregt2021": "contact on the curved rail", "polonsky1999": "conjugate gradients of the contact"}
 _LAYERED = {"burmister1945": "layered bodies", "osullivan1988": "stresses of layered bodies"}
 
 
@@ -117,7 +117,7 @@ def _all_sources(scene: SceneModel) -> Iterator[tuple[str, str]]:
         yield from _FLOW_FACTORS.items()
     if getattr(getattr(scene, "shape", None), "kind", "") == "profiles":
         yield from _PROFILES.items()
-        yield from _CONFORMING.items() if scene.shape.conforming else ()  # type: ignore[attr-defined]
+        yield from _CURVED_RAIL.items() if scene.shape.conforming else ()  # type: ignore[attr-defined]
     if _friction_moves_the_gap(scene):
         yield from _COUPLING.items()
     for item in _inside(scene):

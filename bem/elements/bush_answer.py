@@ -66,7 +66,7 @@ class FilmOfBush:
 
 def pressure_words(model: PlainBushModel) -> str:
     """Return contact angle and pressures in words."""
-    found = model.conforming
+    found = model.shaft_contact
     if model.wall is None:
         around = f"bush of infinite thickness, of {model.second.build().name}"
     else:
@@ -166,7 +166,7 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
         notes.append(
             BUSH_OVER_LIMIT(value=1e-6 * pv, limit=1e-6 * model.pv_limit, ratio=pv / model.pv_limit, reason="pv")
         )
-    peak, strength = model.conforming.maximum_pressure, model.second.build().yield_stress
+    peak, strength = model.shaft_contact.maximum_pressure, model.second.build().yield_stress
     if strength is not None and peak > strength:
         notes.append(BUSH_OVER_LIMIT(value=1e-6 * peak, limit=1e-6 * strength, reason="yield"))
     power = friction_power_of(model, film)[0] if film is not None or model.oil is None or model.friction else None
@@ -269,7 +269,7 @@ def _wear(model: PlainBushModel, film: FilmOfBush | None) -> str:
     if rate is None:
         return "not known: give specific_wear_rate of the bush, measured against this shaft, dry or in this lubricant"
     hourly = rate * model.sliding_speed * _HOUR
-    peaks = (model.conforming.maximum_pressure, WORN_IN * model.mean_pressure)
+    peaks = (model.shaft_contact.maximum_pressure, WORN_IN * model.mean_pressure)
     new, least = (1e6 * hourly * peak for peak in peaks)
     return (
         f"bush {new:.3g} um at the load line as new, {least:.3g} um worn in (4/pi of the "
@@ -294,7 +294,7 @@ def _life(model: PlainBushModel) -> str:
     distance, lasts = wear_life(model)
     angle = max(
         math.degrees(math.acos(model.radial_clearance / (model.radial_clearance + depth))),
-        math.degrees(model.conforming.half_angle),
+        math.degrees(model.shaft_contact.half_angle),
     )
     hours = plain_digits(lasts, 3)
     return (

@@ -104,7 +104,7 @@ def columns(
     ]
     bushes = [one.model for one in cases if isinstance(one.model, PlainBushModel)]
     if bushes:
-        found["peak_pressure [Pa]"] = [one.conforming.maximum_pressure for one in bushes]
+        found["peak_pressure [Pa]"] = [one.shaft_contact.maximum_pressure for one in bushes]
         found["mean_pressure [Pa]"] = [one.mean_pressure for one in bushes]
         found["sliding_speed [m/s]"] = [one.sliding_speed for one in bushes]
         found["pv [Pa*m/s]"] = [one.mean_pressure * one.sliding_speed for one in bushes]

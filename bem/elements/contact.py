@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from bem.lubrication import Lubricant
     from bem.reference_solutions.line_film import InletFilm
 
-CONFORMING = 0.3
+WIDE = 0.3
 """Contact half-length a over the smallest radius R of a body from which on its roundness is said: the gap of two nearly
 equal circles is 1 + 3/4 (a / R)^2 of its parabola at the edge (series of x^2 / 2 R), here 7 % over it."""
 
@@ -112,10 +112,10 @@ class ElementContact:
         assert self.length is not None
         return InletFilm(self.load / self.length, self.radius, viscosity, abs(self.mean_speed), self.inlet)
 
-    def conforming(self, modulus: float) -> bool:
+    def is_wide(self, modulus: float) -> bool:
         """Return True if the contact is as long as the bodies are round, across or along."""
         found = self.hertz(modulus)
         sides = [(self.half_width(modulus), min(map(abs, self.radii)))]
         if isinstance(found, PointContact):
             sides.append((found.semi_axes[1], min(map(abs, self.radii))))
-        return any(half > CONFORMING * radius for half, radius in sides)
+        return any(half > WIDE * radius for half, radius in sides)

@@ -19,7 +19,7 @@ from bem.arguments import read_small
 from bem.elements.bush_answer import bush_temperature, friction_power_of
 from bem.elements.bush_friction import SharedFriction, shared_friction
 from bem.elements.cam_follower import CamModel
-from bem.elements.contact import CONFORMING, ElementContact
+from bem.elements.contact import WIDE, ElementContact
 from bem.elements.gear_pair import GearModel
 from bem.elements.model import Contacts, ElementModel, HeatBalanceScene
 from bem.elements.piston_ring import PistonRingModel
@@ -204,8 +204,8 @@ class Element:
             "half_width [m]": [one.half_width(modulus) for one in contacts],
         }
         if isinstance(self.model, PlainBushModel):
-            found["peak_pressure [Pa]"] = [self.model.conforming.maximum_pressure]
-            found["half_angle [rad]"] = [self.model.conforming.half_angle]
+            found["peak_pressure [Pa]"] = [self.model.shaft_contact.maximum_pressure]
+            found["half_angle [rad]"] = [self.model.shaft_contact.half_angle]
             if self._layered:  # no contact of Hertz
                 del found["hertz_pressure [Pa]"], found["half_width [m]"]
         if self.model.oil is not None:
@@ -274,9 +274,9 @@ class Element:
         notes = [*notes_on_table(self.model), *self.found.notes, *self.model.viscosity_notes()]
         if (bare := self.speed_note()) is not None:
             notes.append(bare)
-        conforming = [one.name for one in self.found.contacts if one.conforming(self.modulus)]
-        if conforming and not isinstance(self.model, PlainBushModel):  # whose contact is that of conforming bodies
-            notes.append(SLOPES_LARGE(places=len(conforming), first=conforming[0], limit=CONFORMING, reason="element"))
+        wide = [one.name for one in self.found.contacts if one.is_wide(self.modulus)]
+        if wide and not isinstance(self.model, PlainBushModel):  # a bush is solved as round as it is
+            notes.append(SLOPES_LARGE(places=len(wide), first=wide[0], limit=WIDE, reason="element"))
         if (soft := self._yielding()) is not None:
             notes.append(soft)
         cold = dict.fromkeys(one.name for one in self.bodies if not one.thermal_diffusivity)

@@ -68,7 +68,7 @@ def _bush(element: Element, model: PlainBushModel, figure: Figure) -> Figure:
     """Draw the pressure of a bush beside the equivalent cylinder's, and with a wear rate the worn depth over time."""
     import numpy as np
 
-    found, flat = model.conforming, model.cylinder
+    found, flat = model.shaft_contact, model.cylinder
     worn = bool(model.specific_wear_rate)
     panels = figure.subplots(1, 2 if worn else 1, squeeze=False)[0]
     half = math.degrees(found.half_angle)

@@ -1,6 +1,6 @@
 """A plain bush: a shaft that turns or swings in a fixed bush under a load of fixed direction, dry or lubricated.
 
-The contact is `bem.contact.conforming`; films and scenes are of the equivalent cylinder on a flat, whose gap is that
+The contact is `bem.contact.shaft_in_bush`; films and scenes are of the equivalent cylinder on a flat, whose gap is that
 of shaft and bush near the load line. A bush with a wall is bonded to its housing, and a layer on it in dry scenes. In
 films it is the half-space on which a cylinder makes a contact of the same width, which is exact for a thick wall and
 for one that vanishes. Wear follows Archard with the whole load and takes off the bush alone. Thermal expansion, which
@@ -17,7 +17,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
-from bem.contact.conforming import ConformingBodies, ConformingContact, conforming_contact
+from bem.contact.shaft_in_bush import ShaftContact, ShaftInBush, solve_shaft_in_bush
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.lubrication.oils.catalogue import find_oil
@@ -69,7 +69,7 @@ point of 264 °C (data sheet of Nylatron 66 SA FR). The continuous use of POM an
 chart of Ensinger has both materials between 100 and 150 °C. No page was read in the original.
 """
 FAR_FROM_CYLINDER = 0.05
-"""Deviation of the equivalent cylinder's peak pressure from that of the conforming contact above which it is said."""
+"""Deviation of the equivalent cylinder's peak pressure from that of shaft and bush above which it is said."""
 LONG = 5.0
 """Length over the width of the contact below which leakage at the ends is said: our choice, as no film of finite length
 was solved. What leaks is of the order of the square of width over length."""
@@ -196,9 +196,9 @@ class PlainBushModel(ElementModel):
         return 0.5 * self.clearance
 
     @cached_property
-    def bodies(self) -> ConformingBodies:
-        """Shaft and bush of the conforming contact."""
-        return ConformingBodies(
+    def bodies(self) -> ShaftInBush:
+        """Shaft and bush, as the contact takes them."""
+        return ShaftInBush(
             self.first.build(), self.second.build(), 0.5 * (self.shaft_diameter + self.clearance),
             self.radial_clearance, self.wall, None if self.wall is None else self.housing_material,
         )  # fmt: skip
@@ -209,14 +209,14 @@ class PlainBushModel(ElementModel):
         return CATALOGUE[HOUSING].material if self.housing is None else self.housing.build()
 
     @cached_property
-    def cylinder(self) -> ConformingContact:
+    def cylinder(self) -> ShaftContact:
         """Contact of the equivalent cylinder on a flat, of which films and scenes are."""
-        return conforming_contact(self.bodies.cylinder, self.line_load)
+        return solve_shaft_in_bush(self.bodies.cylinder, self.line_load)
 
     @cached_property
-    def conforming(self) -> ConformingContact:
+    def shaft_contact(self) -> ShaftContact:
         """Contact under the load."""
-        return conforming_contact(self.bodies, self.line_load)
+        return solve_shaft_in_bush(self.bodies, self.line_load)
 
     @property
     def service_temperature(self) -> float | None:
@@ -301,8 +301,8 @@ class PlainBushModel(ElementModel):
     def cylinder_deviation(self) -> tuple[float, float]:
         """Return the relative deviations of the equivalent cylinder's peak pressure and width from the bush's."""
         width = self.cylinder.half_angle * self.bodies.cylinder.radius / self.bodies.radius
-        pressure = self.cylinder.maximum_pressure / self.conforming.maximum_pressure
-        return pressure - 1, width / self.conforming.half_angle - 1
+        pressure = self.cylinder.maximum_pressure / self.shaft_contact.maximum_pressure
+        return pressure - 1, width / self.shaft_contact.half_angle - 1
 
     def contacts(self) -> Contacts:
         """The one contact at the load line."""
@@ -312,14 +312,14 @@ class PlainBushModel(ElementModel):
         notes = []
         pressure, width = self.cylinder_deviation()
         if self.oil is not None and abs(pressure) > FAR_FROM_CYLINDER:
-            angle = math.degrees(self.conforming.half_angle)
+            angle = math.degrees(self.shaft_contact.half_angle)
             notes.append(BUSH_CONFORMS(angle=angle, pressure=pressure, width=width))
         slender = self.length / (2 * self.cylinder.half_angle * self.bodies.cylinder.radius)
         if self.oil is not None and slender < LONG:
             notes.append(BUSH_LEAKS(ratio=slender))
         coefficient = None if self.oil is None else self.oil.pressure_viscosity
         if self.oil is not None and self.oil.grade is not None and coefficient == GLYCOL:
-            notes.append(BUSH_GLYCOL(change=math.expm1(coefficient * self.conforming.maximum_pressure)))
+            notes.append(BUSH_GLYCOL(change=math.expm1(coefficient * self.shaft_contact.maximum_pressure)))
         if self.oscillation is not None and self.oil is not None:
             notes.append(BUSH_SWINGS())
         return tuple(notes)
@@ -382,6 +382,6 @@ def sliding_to_depth(model: PlainBushModel, depth: float) -> float:
     """
     rate = model.specific_wear_rate
     assert rate is not None
-    new = depth / (rate * model.conforming.maximum_pressure)
+    new = depth / (rate * model.shaft_contact.maximum_pressure)
     rigid = crescent_distance(depth, radius=model.bodies.radius, clearance=model.radial_clearance)
     return max(new, rigid / (rate * model.line_load))

@@ -24,7 +24,7 @@ _OF_MODEL: dict[type, dict[str, str]] = {
     GearModel: dict.fromkeys(scuffing.CITES, "scuffing and friction of gear tests"),
     CamModel: {},
     PistonRingModel: {"reynolds1886": "film of the ring"},
-    PlainBushModel: dict.fromkeys(pin_in_hole.CITES, "conforming contact, closed form that it is verified against"),
+    PlainBushModel: dict.fromkeys(pin_in_hole.CITES, "shaft in a bush, closed form that it is verified against"),
 }
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.contact.conforming import modulus_on_layer
+from bem.contact.shaft_in_bush import modulus_on_layer
 from bem.convolution import couples
 from bem.errors import InputError, Status
 from bem.friction.balance import Balance

@@ -10,7 +10,7 @@ moves along its surface is left out: of two bodies with Dundurs' beta = 0 it can
 
 Of a round shaft in a hole of the same material in plane strain, -cos(t) ln(2 sin(t/2)) is the exact kernel but for
 rigid motions and the part of uniform pressure all around, of which it has twice the displacement (Michell; see
-`bem.contact.conforming`): a body of finite size decides that part. Against this closed form the highest pressure is
+`bem.contact.shaft_in_bush`): a body of finite size decides that part. Against this closed form the highest pressure is
 0.2, 0.8 and 1.6 % too high at half-angles of 10, 20 and 30 degrees, where a flat contact is 1.2, 4.8 and 11 % too low;
 without that part it agrees within 0.03 % (tests/profiles/test_curved_contact.py).
 

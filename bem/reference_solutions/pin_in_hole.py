@@ -2,7 +2,7 @@
 
 Persson (1964) for equal materials; Ciavarella and Decuzzi (2001) for materials whose Dundurs beta is zero. Neither
 paper could be read; the formulas are quoted from memory and agree to 1e-10 with the integral equation of
-`bem.contact.conforming`, which is derived and solved without them. Verified in tests/contact/test_conforming.py.
+`bem.contact.shaft_in_bush`, which is derived and solved without them. Verified in tests/contact/test_shaft_in_bush.py.
 """
 
 from __future__ import annotations

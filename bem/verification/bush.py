@@ -1,4 +1,4 @@
-"""Shaft and bush solved as contact: half-angle and pressures through `conforming_contact`."""
+"""Shaft and bush solved as contact: half-angle and pressures through `solve_shaft_in_bush`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 import numpy as np
 from numpy.polynomial import Chebyshev
 
-from bem.contact.conforming import ConformingBodies, ConformingContact, conforming_contact
+from bem.contact.shaft_in_bush import ShaftContact, ShaftInBush, solve_shaft_in_bush
 from bem.grid import FloatArray
 from bem.materials import Material
 from bem.verification.rows import Curve
@@ -25,13 +25,13 @@ def curves(case: StoredCase) -> list[Curve]:
     return [curve.beside(curve.name, _values(bodies, curve), ALLOWANCE, REASON) for curve in case.curves]
 
 
-def _bodies(case: StoredCase) -> ConformingBodies:
+def _bodies(case: StoredCase) -> ShaftInBush:
     """Shaft and bush in units of the bush's Young's modulus and the radius."""
     parameters = case.parameters
     bush = Material("bush", youngs_modulus=1.0, poissons_ratio=parameters["nu"])
     shaft, housing = (_material(name, parameters[name]) for name in ("shaft", "housing"))
     assert shaft is not None
-    return ConformingBodies(shaft, bush, 1.0, CLEARANCE, parameters["wall"], housing)
+    return ShaftInBush(shaft, bush, 1.0, CLEARANCE, parameters["wall"], housing)
 
 
 def _material(name: str, figures: tuple[float, float] | None) -> Material | None:
@@ -39,21 +39,21 @@ def _material(name: str, figures: tuple[float, float] | None) -> Material | None
     return None if figures is None else Material(name, youngs_modulus=figures[0], poissons_ratio=figures[1])
 
 
-def _values(bodies: ConformingBodies, curve: StoredCurve) -> FloatArray:
+def _values(bodies: ShaftInBush, curve: StoredCurve) -> FloatArray:
     """The stored curve's points."""
     unit = bodies.modulus * CLEARANCE
     if curve.along == "load":
-        contacts = [conforming_contact(bodies, unit * load) for load in curve.coordinates[:, 0].tolist()]
+        contacts = [solve_shaft_in_bush(bodies, unit * load) for load in curve.coordinates[:, 0].tolist()]
         if curve.name == "half_angle":
             return np.array([contact.half_angle for contact in contacts])
         return np.array([contact.maximum_pressure / unit for contact in contacts])
     match = re.search(r"at load ([\d.eE+-]+)$", curve.along)
     assert match is not None
-    contact = conforming_contact(bodies, unit * float(match[1]))
+    contact = solve_shaft_in_bush(bodies, unit * float(match[1]))
     return pressure_at(contact, curve.coordinates[:, 0]) / unit
 
 
-def pressure_at(contact: ConformingContact, angles: FloatArray) -> FloatArray:
+def pressure_at(contact: ShaftContact, angles: FloatArray) -> FloatArray:
     """Pressure at angles inside the contact [rad]: times sqrt(1 - x^2) it is a polynomial through the nodes."""
     nodes, x = contact.angles / contact.half_angle, angles / contact.half_angle
     density = contact.pressures * np.sqrt(1 - nodes**2)

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from bem.contact import solve_contact
-from bem.contact.conforming import ConformingBodies, conforming_contact
+from bem.contact.shaft_in_bush import ShaftInBush, solve_shaft_in_bush
 from bem.convolution import displacement_operator
 from bem.grid import Grid
 from bem.materials import Body, Material, contact_modulus
@@ -92,8 +92,8 @@ def inclined_circles() -> list[Curve]:
 def shaft_in_hole() -> list[Curve]:
     """A curved surface of a shaft in a hole of its material, half-angles of 5, 10 and 20 degrees, and a flat one."""
     radius, clearance, rows, length = 0.013, 1.3e-6, 101, 60.0
-    bodies = ConformingBodies(STEEL, STEEL, radius, clearance)
-    exact = [conforming_contact(bodies, load) for load in (1e3, 4e3, 1.5e4)]
+    bodies = ShaftInBush(STEEL, STEEL, radius, clearance)
+    exact = [solve_shaft_in_bush(bodies, load) for load in (1e3, 4e3, 1.5e4)]
     found = []
     for one in exact:
         angle = (np.arange(rows) - (rows - 1) / 2) * 2.6 * one.half_angle / rows

@@ -11,7 +11,7 @@ from command_line import run_command
 
 from bem import InputError, plan_scene, run_scene
 from bem.app.element_form import answered, file_of
-from bem.contact.conforming import ConformingBodies
+from bem.contact.shaft_in_bush import ShaftInBush
 from bem.elements.answer import all_notes, answer, answer_notes, balance_heat, table_columns
 from bem.elements.cases import columns
 from bem.elements.element import element_template, load_element
@@ -359,7 +359,7 @@ def test_water_with_glycol_evaporates_before_it_boils():
     assert note.values["limit"] == pytest.approx(65)
     assumed = load_element(WATER | {"oil": without(glycol, "pressure_viscosity")})
     (note,) = [note for note in assumed.notes() if note.code == BUSH_GLYCOL.code]
-    assert note.values["change"] == pytest.approx(math.expm1(5e-9 * assumed.model.conforming.maximum_pressure))
+    assert note.values["change"] == pytest.approx(math.expm1(5e-9 * assumed.model.shaft_contact.maximum_pressure))
     assert assumed.columns()["minimum_film [m]"] == load_element(WATER | {"oil": glycol}).columns()["minimum_film [m]"]
     assert BUSH_GLYCOL.code not in codes(load_element(WATER).notes())
 
@@ -443,7 +443,7 @@ def test_cases_of_a_bush_have_its_answers():
 
 def test_a_peak_above_the_yield_stress_is_noted():
     heavy = load_element(DRY | {"radial_load": "60 kN", "friction": 0.01, "heat_balance": {"conductance": "1 kW/K"}})
-    assert heavy.model.conforming.maximum_pressure > 100e6
+    assert heavy.model.shaft_contact.maximum_pressure > 100e6
     (note,) = answer_notes(heavy, ())
     assert note.values["limit"] == pytest.approx(100)
 
@@ -538,7 +538,7 @@ def test_the_wear_of_rigid_bodies():
     )
 
 
-def worn_step_by_step(bodies: ConformingBodies, line_load, rate, depth, *, distance, steps=150, count=61):
+def worn_step_by_step(bodies: ShaftInBush, line_load, rate, depth, *, distance, steps=150, count=61):
     """Sliding distance [m] until a bush of infinite thickness is worn to a depth, by implicit steps of Archard's law.
 
     Cells around a quarter of the bore; steps grow with the distance slid, up to some share of `distance`.
@@ -657,7 +657,7 @@ def test_the_command(tmp_path):
 
 def test_a_wall_makes_the_bush_stiffer():
     walls = [load_element(DRY | {"wall": wall}).model for wall in ("5 mm", "2 mm", "1 mm")]
-    angles = [one.conforming.half_angle for one in walls]
+    angles = [one.shaft_contact.half_angle for one in walls]
     assert angles == sorted(angles, reverse=True)
     infinite = replace(walls[0].bodies, wall=None, housing=None)
     assert infinite.equivalent_radius == pytest.approx(walls[0].contact().radius)

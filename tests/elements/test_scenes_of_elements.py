@@ -10,7 +10,7 @@ import pytest
 from command_line import run_command
 
 from bem import InputError, load_scene, plan_scene, run_scene
-from bem.elements.contact import CONFORMING
+from bem.elements.contact import WIDE
 from bem.elements.element import KINDS, LIFE, MODELS, element_template, load_element
 from bem.elements.scene_text import scene_text
 from bem.reference_solutions.hertz import PointContact
@@ -102,7 +102,7 @@ def test_what_conforms_is_said_to():
     found = load_element(table)
     assert any((note.code, note.values.get("reason")) == ("slopes-large", "element") for note in found.notes())
     ball, groove = 0.5 * 11.9e-3, 0.505 * 11.9e-3
-    edge = CONFORMING * ball
+    edge = WIDE * ball
     gap = [r - math.sqrt(r**2 - edge**2) - edge**2 / (2 * r) for r in (ball, groove)]
     assert (gap[0] - gap[1]) / (0.5 * edge**2 * (1 / ball - 1 / groove)) == pytest.approx(0.07, abs=0.005)
     with pytest.raises(InputError, match="needs an oil"):

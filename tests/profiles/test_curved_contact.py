@@ -9,7 +9,7 @@ from scipy.optimize import nnls
 from test_placement import circle
 
 from bem import Grid, solve_contact
-from bem.contact.conforming import ConformingBodies, conforming_contact
+from bem.contact.shaft_in_bush import ShaftInBush, solve_shaft_in_bush
 from bem.convolution import displacement_operator
 from bem.errors import InfeasibleError, InputError, Status
 from bem.kernels.half_space import rectangle_displacement
@@ -39,8 +39,8 @@ class RealHole(CurvedSurface):
 
 def shaft_in_hole(half_angle, rows=101, kind=CurvedSurface, clearance=1e-4):
     """Return the surface, the gap and the closed form of a contact of that half-angle [rad]."""
-    bodies = ConformingBodies(STEEL, STEEL, RADIUS, clearance * RADIUS)
-    exact = conforming_contact(bodies, _load_over(bodies, half_angle))
+    bodies = ShaftInBush(STEEL, STEEL, RADIUS, clearance * RADIUS)
+    exact = solve_shaft_in_bush(bodies, _load_over(bodies, half_angle))
     assert exact.half_angle == pytest.approx(half_angle, rel=1e-6)
     angle = (np.arange(rows) - (rows - 1) / 2) * 2.6 * half_angle / rows
     grid = Grid((1, rows), (LONG, RADIUS * 2.6 * half_angle / rows))
@@ -53,7 +53,7 @@ def _load_over(bodies, half_angle):
     low, high = 1e2, 1e9
     for _ in range(60):
         middle = math.sqrt(low * high)
-        low, high = (middle, high) if conforming_contact(bodies, middle).half_angle < half_angle else (low, middle)
+        low, high = (middle, high) if solve_shaft_in_bush(bodies, middle).half_angle < half_angle else (low, middle)
     return math.sqrt(low * high)
 
 

@@ -159,8 +159,8 @@ OTHERS = [
     ("bem.heat.operators.temperature_table", None, None, "heat-disc-hertz"),
     ("bem.verification.heat.moving_band", None, None, "heat-band-peclet-1"),
     ("bem.verification.heat.disc_at_rest", None, None, "heat-disc-uniform"),
-    ("bem.contact.conforming._bush_harmonics", None, None, "bush-peek"),
-    ("bem.contact.conforming._bush_mean", None, None, "bush-peek-wide"),
+    ("bem.contact.shaft_in_bush._bush_harmonics", None, None, "bush-peek"),
+    ("bem.contact.shaft_in_bush._bush_mean", None, None, "bush-peek-wide"),
 ]
 ALL = [*SURFACE, *IN_PLANE, *ACROSS, *WAVES, *OTHERS]
 QUICK = [SURFACE[0], SURFACE[3], SURFACE[8], STRESSES[0], STRESSES[1], STRESSES[12], WAVES[3], OTHERS[2], IN_PLANE[2]]

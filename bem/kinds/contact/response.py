@@ -1,7 +1,7 @@
 """What the bodies of a contact do under its load: one object for each law, from which a run takes its results.
 
 `ElasticResponse` (elastic, or capped at the hardness) is here; `AdhesiveResponse` is in `adhesive`, `RelaxedResponse`
-(a path in time, or steady motion) in `viscoelastic`, `ConformingResponse` (a curved surface) in `conforming`.
+(a path in time, or steady motion) in `viscoelastic`, `CurvedRailResponse` (on the curved rail) in `curved_rail`.
 `solve_response` chooses.
 """
 
@@ -15,7 +15,7 @@ import numpy as np
 
 from bem.grid import FloatArray, Grid
 from bem.kinds.contact.adhesive import AdhesiveResponse
-from bem.kinds.contact.conforming import ConformingResponse, solve_conforming
+from bem.kinds.contact.curved_rail import CurvedRailResponse, solve_on_curved_rail
 from bem.kinds.contact.scene import ContactScene
 from bem.kinds.contact.solve import level_before, solve_adhesive, solve_scene, standing_off
 from bem.kinds.contact.viscoelastic import RelaxedResponse, solve_relaxing
@@ -117,7 +117,7 @@ class ElasticResponse:
 def solve_response(scene: ContactScene, grid: Grid, undeformed: FloatArray, context: Context) -> Response:
     """Solve the contact by the law of its bodies, or take it from the checkpoint where it was solved before."""
     if scene.shape.conforming:
-        return ConformingResponse(solve_conforming(scene, grid, undeformed, scene.contact.tolerance))
+        return CurvedRailResponse(solve_on_curved_rail(scene, grid, undeformed, scene.contact.tolerance))
     relaxed = solve_relaxing(scene, grid, undeformed, context)
     if relaxed is not None:
         return RelaxedResponse(relaxed)

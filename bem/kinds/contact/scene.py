@@ -142,7 +142,7 @@ class ContactScene(StressedScene):
     outputs: ContactOutputs = key("Results besides pressure, gap and displacement.", "basic", default=ContactOutputs())
 
     @model_validator(mode="after")
-    def _conforming_bodies_pressed_alone(self) -> ContactScene:
+    def _curved_rail_pressed_alone(self) -> ContactScene:
         if not self.shape.conforming:
             return self
         contact = self.contact

@@ -26,7 +26,7 @@ def plan(scene: RollingContactScene) -> Plan:
     InputError : surfaces that cannot be generated on the grid.
     """
     if scene.shape.conforming:
-        return _plan_conforming(scene)
+        return _plan_on_curved_rail(scene)
     history = scene.history
 
     def steps(grid: Grid, points: float) -> tuple[Step, ...]:
@@ -51,7 +51,7 @@ def plan(scene: RollingContactScene) -> Plan:
     return sticking.plan_around(scene, steps, 0.5)
 
 
-def _plan_conforming(scene: RollingContactScene) -> Plan:
+def _plan_on_curved_rail(scene: RollingContactScene) -> Plan:
     """Plan rolling on a curved surface: ny^2 numbers for each wavenumber along x and each of five kernels."""
     grid = build.grid_of(scene.grid)
     matrices = (grid.shape[0] + 1) * grid.shape[1] ** 2

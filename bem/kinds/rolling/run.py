@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bem.errors import Status
-from bem.kinds.rolling.conforming import bars_of_conforming, rolled_together
+from bem.kinds.rolling.curved_rail import bars_on_curved_rail, roll_on_curved_rail
 from bem.kinds.rolling.errors import bars_of
 from bem.kinds.rolling.record import RollingRecord
 from bem.kinds.rolling.scene import RollingContactScene
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def run(scene: RollingContactScene, context: Context) -> RollingRecord:
     """Solve the contact, then what sticks while it rolls."""
     if scene.shape.conforming:
-        return _run_conforming(scene, context)
+        return _run_on_curved_rail(scene, context)
     site = sticking.pressed_together(scene, context)
     curves: dict[str, Any] = {}
     with context.timer("rolling"):
@@ -48,12 +48,12 @@ def run(scene: RollingContactScene, context: Context) -> RollingRecord:
     )
 
 
-def _run_conforming(scene: RollingContactScene, context: Context) -> RollingRecord:
+def _run_on_curved_rail(scene: RollingContactScene, context: Context) -> RollingRecord:
     """Solve pressures and tractions on the curved surface of the rail together."""
-    site, solved = rolled_together(scene, context)
+    site, solved = roll_on_curved_rail(scene, context)
     found = solved.rolling
     wanted = scene.outputs.errors and Status.CONVERGED is site.contact.status is found.status
-    errors = error_bars(context, wanted, lambda: bars_of_conforming(scene, site, solved))
+    errors = error_bars(context, wanted, lambda: bars_on_curved_rail(scene, site, solved))
     figures = rolled_figures(site, found, scene.roll.spin) | {"lateral_force": solved.lateral_force}
     return _record(scene, site, found, figures, errors)
 

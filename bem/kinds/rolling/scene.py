@@ -19,7 +19,7 @@ class RollingContactScene(RolledScene):
     curved_surfaces: ClassVar[bool] = True
 
     @model_validator(mode="after")
-    def _conforming_bodies_roll_steadily(self) -> RollingContactScene:
+    def _curved_rail_rolls_steadily(self) -> RollingContactScene:
         if not self.shape.conforming:
             return self
         contact, roll = self.contact, self.roll

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from bem.stress import StressSummary
 
 
-def solve_conforming(scene: ContactScene, grid: Grid, undeformed: FloatArray, tolerance: float) -> CurvedContact:
+def solve_on_curved_rail(scene: ContactScene, grid: Grid, undeformed: FloatArray, tolerance: float) -> CurvedContact:
     """Solve the contact of a scene on a grid whose y is the arc length of the rail."""
     from bem.profiles.curved_contact import solve_curved_contact
     from bem.profiles.curved_surface import CurvedSurface
@@ -41,7 +41,7 @@ def solve_conforming(scene: ContactScene, grid: Grid, undeformed: FloatArray, to
 
 
 @dataclass(frozen=True, eq=False)
-class ConformingResponse:
+class CurvedRailResponse:
     """Elastic contact on the curved surface; a `Response`."""
 
     solved: CurvedContact
@@ -90,7 +90,7 @@ class ConformingResponse:
         if reason is not None:
             return contact_bars(case, Coarser(None, None, reason)) | ErrorBars.unknown(names, reason)
         grid = half_grid(case.grid)
-        there = solve_conforming(scene, grid, build.shape_of(scene.shape, grid), COARSER_TOLERANCE)
+        there = solve_on_curved_rail(scene, grid, build.shape_of(scene.shape, grid), COARSER_TOLERANCE)
         if there.contact.status is not Status.CONVERGED:
             failed = Coarser(None, None, NoBar.COARSER_UNSOLVED)
             return contact_bars(case, failed) | ErrorBars.unknown(names, NoBar.COARSER_UNSOLVED)

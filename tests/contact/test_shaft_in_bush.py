@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from bem import InputError
-from bem.contact.conforming import (
+from bem.contact.shaft_in_bush import (
     NODES,
-    ConformingBodies,
+    ShaftInBush,
     _bush_harmonics,
     _bush_mean,
-    conforming_contact,
     modulus_on_layer,
+    solve_shaft_in_bush,
 )
 from bem.materials import CATALOGUE, Material, contact_modulus, dundurs_beta
 from bem.reference_solutions.hertz import cylinder_contact
@@ -22,7 +22,7 @@ from bem.stiffness import Stiffness
 
 STEEL, PEEK = CATALOGUE["steel-52100"].material, CATALOGUE["peek"].material
 RADIUS, CLEARANCE = 10e-3, 20e-6
-POLYMER = ConformingBodies(STEEL, PEEK, RADIUS, CLEARANCE)
+POLYMER = ShaftInBush(STEEL, PEEK, RADIUS, CLEARANCE)
 CRYSTAL = Material("silicon", stiffness=Stiffness("cubic", c11=166e9, c12=64e9, c44=80e9))
 SOFT = Material("gel", youngs_modulus=1e5, poissons_ratio=0.3, surface_tension=0.03)
 
@@ -46,7 +46,7 @@ def test_the_closed_form_of_similar_bodies(bodies, degrees):
     )
     half = math.radians(degrees)
     load = load_of_angle(half, modulus=pin.plane_strain_modulus, alpha=alpha, clearance=CLEARANCE)
-    found = conforming_contact(ConformingBodies(pin, plate, RADIUS, CLEARANCE), load)
+    found = solve_shaft_in_bush(ShaftInBush(pin, plate, RADIUS, CLEARANCE), load)
     assert found.half_angle == pytest.approx(half, rel=1e-9)
     exact = pressure_at(found.angles, half_angle=half, load=load, radius=RADIUS)
     assert found.pressures == pytest.approx(exact, rel=1e-7)
@@ -57,9 +57,9 @@ def test_the_closed_form_of_similar_bodies(bodies, degrees):
 
 def deviation(load):
     """How far Hertz' peak pressure is from that of equal bodies."""
-    bodies = ConformingBodies(STEEL, STEEL, RADIUS, CLEARANCE)
+    bodies = ShaftInBush(STEEL, STEEL, RADIUS, CLEARANCE)
     hertz = cylinder_contact(radius=bodies.equivalent_radius, contact_modulus=bodies.modulus, load=load)
-    return hertz.maximum_pressure / conforming_contact(bodies, load).maximum_pressure - 1
+    return hertz.maximum_pressure / solve_shaft_in_bush(bodies, load).maximum_pressure - 1
 
 
 def test_small_contacts_are_hertz():
@@ -73,9 +73,9 @@ def test_small_contacts_are_hertz():
 @pytest.mark.parametrize("clearance", [7.5e-3 * RADIUS, 1e-4 * RADIUS])
 def test_light_loads_are_solved(clearance):
     """Hertz to the relative clearance and the square of the angle, at every load of seven decades."""
-    bodies = ConformingBodies(STEEL, STEEL, RADIUS, clearance)
+    bodies = ShaftInBush(STEEL, STEEL, RADIUS, clearance)
     for load in np.geomspace(1e-2, 1e5, 71) * clearance / RADIUS:
-        found = conforming_contact(bodies, load)
+        found = solve_shaft_in_bush(bodies, load)
         half_width = cylinder_contact(
             radius=bodies.equivalent_radius, contact_modulus=bodies.modulus, load=load
         ).half_width
@@ -85,23 +85,23 @@ def test_light_loads_are_solved(clearance):
 
 
 def test_dissimilar_bodies_converge_with_the_nodes():
-    pressures = [conforming_contact(POLYMER, 25e3, nodes=nodes).maximum_pressure for nodes in (12, 24, 96)]
+    pressures = [solve_shaft_in_bush(POLYMER, 25e3, nodes=nodes).maximum_pressure for nodes in (12, 24, 96)]
     errors = [abs(one / pressures[-1] - 1) for one in pressures[:-1]]
     assert math.log2(errors[0] / errors[1]) > 4
-    assert conforming_contact(POLYMER, 25e3).maximum_pressure == pytest.approx(pressures[-1], rel=1e-8)
+    assert solve_shaft_in_bush(POLYMER, 25e3).maximum_pressure == pytest.approx(pressures[-1], rel=1e-8)
     thin = replace(POLYMER, wall=0.02 * RADIUS)
-    fine = conforming_contact(thin, 25e3, nodes=2 * NODES).maximum_pressure
-    assert conforming_contact(thin, 25e3).maximum_pressure == pytest.approx(fine, rel=1e-6)
+    fine = solve_shaft_in_bush(thin, 25e3, nodes=2 * NODES).maximum_pressure
+    assert solve_shaft_in_bush(thin, 25e3).maximum_pressure == pytest.approx(fine, rel=1e-6)
 
 
 def test_a_housing_of_the_bush_s_material_is_an_infinite_bush():
-    alone, housed = (conforming_contact(one, 25e3) for one in (POLYMER, replace(POLYMER, wall=2e-3, housing=PEEK)))
+    alone, housed = (solve_shaft_in_bush(one, 25e3) for one in (POLYMER, replace(POLYMER, wall=2e-3, housing=PEEK)))
     assert housed.maximum_pressure == pytest.approx(alone.maximum_pressure, rel=1e-9)
-    thick = conforming_contact(replace(POLYMER, wall=10 * RADIUS), 25e3)
+    thick = solve_shaft_in_bush(replace(POLYMER, wall=10 * RADIUS), 25e3)
     assert thick.maximum_pressure == pytest.approx(alone.maximum_pressure, rel=1e-2)
     stiff = Material("stiff", youngs_modulus=1e18, poissons_ratio=0.3)
     rigid, nearly = (replace(POLYMER, wall=2e-3, housing=one) for one in (None, stiff))
-    pressures = [conforming_contact(one, 25e3).maximum_pressure for one in (rigid, nearly)]
+    pressures = [solve_shaft_in_bush(one, 25e3).maximum_pressure for one in (rigid, nearly)]
     assert pressures[0] == pytest.approx(pressures[1], rel=1e-6)
 
 
@@ -170,7 +170,7 @@ def test_the_shaft_moves_as_navier_s_equations_say(n):
 def test_the_deformed_surfaces_close_the_gap(wall):
     """The gap from 78 harmonics of the pressure is none within the contact and open beside it."""
     bodies = replace(POLYMER, wall=wall)
-    found = conforming_contact(bodies, 25e3)
+    found = solve_shaft_in_bush(bodies, 25e3)
     count = len(found.angles)
     weights = found.half_angle * math.pi / count * np.sin(math.pi * (np.arange(count) + 0.5) / count)
     n = np.arange(2, 80)
@@ -194,7 +194,7 @@ def test_the_deformed_surfaces_close_the_gap(wall):
 
 
 def test_curvatures_of_shaft_and_bore_subtract_to_that_of_the_equivalent_cylinder():
-    bodies = ConformingBodies(STEEL, PEEK, RADIUS, 0.05 * RADIUS)
+    bodies = ShaftInBush(STEEL, PEEK, RADIUS, 0.05 * RADIUS)
     exact = 1 / (1 / (0.95 * RADIUS) - 1 / RADIUS)
     assert bodies.equivalent_radius == pytest.approx(exact, rel=1e-12, abs=0)
 
@@ -202,14 +202,14 @@ def test_curvatures_of_shaft_and_bore_subtract_to_that_of_the_equivalent_cylinde
 def test_the_equivalent_cylinder_is_that_of_hertz():
     bodies = POLYMER.cylinder
     hertz = cylinder_contact(radius=POLYMER.equivalent_radius, contact_modulus=bodies.modulus, load=8e3)
-    assert conforming_contact(bodies, 8e3).maximum_pressure == pytest.approx(hertz.maximum_pressure, rel=5e-3)
+    assert solve_shaft_in_bush(bodies, 8e3).maximum_pressure == pytest.approx(hertz.maximum_pressure, rel=5e-3)
 
 
 @pytest.mark.parametrize("relative", [0.015, 0.09])
 def test_wide_clearances_have_an_equivalent_cylinder(relative):
-    bodies = ConformingBodies(STEEL, PEEK, RADIUS, relative * RADIUS)
+    bodies = ShaftInBush(STEEL, PEEK, RADIUS, relative * RADIUS)
     hertz = cylinder_contact(radius=bodies.equivalent_radius, contact_modulus=bodies.modulus, load=50e3)
-    found = conforming_contact(bodies.cylinder, 50e3)
+    found = solve_shaft_in_bush(bodies.cylinder, 50e3)
     assert found.maximum_pressure == pytest.approx(hertz.maximum_pressure, rel=5e-3)
     assert found.half_angle * bodies.cylinder.radius == pytest.approx(hertz.half_width, rel=5e-3)
 
@@ -227,7 +227,7 @@ def test_a_layer_of_the_substrate_s_material_has_the_modulus_of_half_spaces():
 
 
 def test_the_load_is_that_of_the_pressure():
-    found = conforming_contact(replace(POLYMER, wall=1e-3), 25e3)
+    found = solve_shaft_in_bush(replace(POLYMER, wall=1e-3), 25e3)
     at = np.concatenate([[-found.half_angle], found.angles[::-1], [found.half_angle]])
     pressure = np.concatenate([[0.0], found.pressures[::-1], [0.0]])
     assert RADIUS * np.trapezoid(pressure * np.cos(at), at) == pytest.approx(25e3, rel=2e-3)
@@ -244,15 +244,15 @@ def test_crystals_and_surface_tension_are_refused(place, material):
 
 def test_what_is_no_bush_is_refused():
     with pytest.raises(InputError, match="clearance"):
-        ConformingBodies(STEEL, PEEK, RADIUS, 0.0)
+        ShaftInBush(STEEL, PEEK, RADIUS, 0.0)
     with pytest.raises(InputError, match="wall"):
-        ConformingBodies(STEEL, PEEK, RADIUS, CLEARANCE, wall=1e-6)
+        ShaftInBush(STEEL, PEEK, RADIUS, CLEARANCE, wall=1e-6)
     with pytest.raises(InputError, match="wall"):
-        ConformingBodies(STEEL, PEEK, RADIUS, CLEARANCE, wall=math.inf)
+        ShaftInBush(STEEL, PEEK, RADIUS, CLEARANCE, wall=math.inf)
     with pytest.raises(InputError, match="radius"):
-        ConformingBodies(STEEL, PEEK, math.inf, CLEARANCE)
+        ShaftInBush(STEEL, PEEK, math.inf, CLEARANCE)
     for load in (0.0, -1.0, math.nan, math.inf):
         with pytest.raises(InputError, match="positive load"):
-            conforming_contact(POLYMER, load)
+            solve_shaft_in_bush(POLYMER, load)
     with pytest.raises(InputError, match="as without clearance"):
-        conforming_contact(POLYMER, 1e16)
+        solve_shaft_in_bush(POLYMER, 1e16)

@@ -1,4 +1,4 @@
-"""Frictionless contact of a round shaft in a slightly larger round hole: pressure and contact angle, conforming or not.
+"""Frictionless contact of a round shaft in a slightly larger round hole: pressure and contact angle at any clearance.
 
 Small displacements at the common radius R, plane strain. The hole is in an infinite body, or in a bush that is bonded
 to an infinite elastic or rigid housing. Under a pressure p cos(n angle) a surface moves along the radius by a
@@ -12,7 +12,7 @@ n = 1 moves the bodies as a whole, so that how the load enters them matters only
 sums over n are closed: a logarithm, which both bodies have, and a jump, which vanishes with Dundurs' beta. The finite
 wall adds a rapidly decaying sum. With Chebyshev nodes over the contact and weights that integrate logarithm and jump
 exactly the error falls exponentially with the number of nodes for beta = 0, and with their sixth power otherwise.
-Verified in tests/contact/test_conforming.py: the closed form of `pin_in_hole` for beta = 0, Hertz, and displacements
+Verified in tests/contact/test_shaft_in_bush.py: the closed form of `pin_in_hole` for beta = 0, Hertz, and displacements
 of bush and shaft by Navier's equations along the radius; and by gates against contacts in finite elements
 (`bem.verification.bush`).
 """
@@ -49,7 +49,7 @@ _DECAY = 40.0
 
 
 @dataclass(frozen=True)
-class ConformingBodies:
+class ShaftInBush:
     """Shaft and bush.
 
     Attributes
@@ -99,7 +99,7 @@ class ConformingBodies:
         return self.radius * (self.radius - self.clearance) / self.clearance
 
     @property
-    def cylinder(self) -> ConformingBodies:
+    def cylinder(self) -> ShaftInBush:
         """Nearly the cylinder on a flat, under its layer if the bush has a wall, with the same gap near the load line.
 
         Radii are ten times larger and the gap near the load line, clearance/radius^2, is that of the equivalent radius:
@@ -115,14 +115,14 @@ class ConformingBodies:
         return contact_modulus(self.shaft, self.bush)
 
 
-class _CylinderOnFlat(ConformingBodies):
+class _CylinderOnFlat(ShaftInBush):
     """Bodies of any clearance, of which only the gap near the load line counts."""
 
     _most_clearance = math.inf
 
 
 @dataclass(frozen=True)
-class ConformingContact:
+class ShaftContact:
     """Contact of a shaft in a bush under a load.
 
     Attributes
@@ -140,7 +140,7 @@ class ConformingContact:
     pressures: NDArray[np.float64]
 
 
-def conforming_contact(bodies: ConformingBodies, load: float, *, nodes: int = NODES) -> ConformingContact:
+def solve_shaft_in_bush(bodies: ShaftInBush, load: float, *, nodes: int = NODES) -> ShaftContact:
     """Solve the contact under a load per length [N/m].
 
     Raises
@@ -189,15 +189,15 @@ def modulus_on_layer(
 
     Raises
     ------
-    InputError : as `ConformingBodies` and `conforming_contact`.
+    InputError : as `ShaftInBush` and `solve_shaft_in_bush`.
     """
     bore = radius / _BORE_SCALE
-    bodies = ConformingBodies(cylinder, layer, bore, bore**2 / radius, thickness, substrate)
-    half_width = conforming_contact(bodies, load).half_angle * bore
+    bodies = ShaftInBush(cylinder, layer, bore, bore**2 / radius, thickness, substrate)
+    half_width = solve_shaft_in_bush(bodies, load).half_angle * bore
     return 4 * load * radius / (math.pi * half_width**2)
 
 
-def _contact_over(bodies: ConformingBodies, half: float, nodes: int, wall: _WallSeries) -> ConformingContact:
+def _contact_over(bodies: ShaftInBush, half: float, nodes: int, wall: _WallSeries) -> ShaftContact:
     """Return the contact over a half-angle [rad], whatever its load.
 
     The unknowns are the pressure at the nodes times sqrt(1 - x^2) and the shift of the shaft. The equations are that of
@@ -221,10 +221,10 @@ def _contact_over(bodies: ConformingBodies, half: float, nodes: int, wall: _Wall
     load = half * bodies.radius * math.pi / nodes * float(density @ np.cos(angle))
     coefficients = np.concatenate([[np.mean(density)], 2 / nodes * chebyshev @ density])
     at_middle = np.cos(0.5 * math.pi * np.arange(nodes))  # T_n at x = 0
-    return ConformingContact(load, half, float(at_middle @ coefficients), angle, density / np.sin(turn))
+    return ShaftContact(load, half, float(at_middle @ coefficients), angle, density / np.sin(turn))
 
 
-def _influence(bodies: ConformingBodies, half: float, turn: NDArray[np.float64]) -> NDArray[np.float64]:
+def _influence(bodies: ShaftInBush, half: float, turn: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the widening of the gap by densities at the nodes, times pi over the half-angle, (nodes, nodes) [m/Pa].
 
     Of a bush without a wall; the density is the pressure times sqrt(1 - x^2).
@@ -276,7 +276,7 @@ class _WallSeries:
     harmonics: NDArray[np.float64]
 
     @classmethod
-    def of(cls, bodies: ConformingBodies) -> _WallSeries:
+    def of(cls, bodies: ShaftInBush) -> _WallSeries:
         """Return the series of a pair of bodies, empty without a wall."""
         if bodies.wall is None:
             return cls(0.0, np.zeros(0))
@@ -290,7 +290,7 @@ class _WallSeries:
         return 0.5 * self.constant + (cosines * self.harmonics) @ cosines.T + (sines * self.harmonics) @ sines.T
 
 
-def _bush_mean(bodies: ConformingBodies) -> float:
+def _bush_mean(bodies: ShaftInBush) -> float:
     """Return the flexibility of the bush under uniform pressure less that of the infinite body (Lamé)."""
     assert bodies.wall is not None
     radius, outer = bodies.radius, bodies.radius + bodies.wall
@@ -306,7 +306,7 @@ def _bush_mean(bodies: ConformingBodies) -> float:
     return float(a * radius + b / radius - radius / (2 * shear))
 
 
-def _bush_harmonics(bodies: ConformingBodies, orders: NDArray[np.int_]) -> NDArray[np.float64]:
+def _bush_harmonics(bodies: ShaftInBush, orders: NDArray[np.int_]) -> NDArray[np.float64]:
     """Return the flexibility of the bush under cos(n angle) less that of the infinite body, n >= 2 [m/Pa].
 
     Michell's functions r^n, r^(n+2), r^-n, r^(2-n) of radii over the bore's; rising ones are scaled at the outer,

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from bem.profiles.curved_rolling import CurvedRolling
 
 
-def solve_conforming_rolling(scene: RollingContactScene, grid: Grid, tolerance: float) -> tuple[Site, CurvedRolling]:
+def solve_on_curved_rail(scene: RollingContactScene, grid: Grid, tolerance: float) -> tuple[Site, CurvedRolling]:
     """Solve pressures and tractions of a scene on a grid whose y is the arc length of the rail."""
     from bem.profiles.curved_rolling import Rolling, solve_curved_rolling
     from bem.profiles.curved_surface import CurvedSurface
@@ -44,17 +44,17 @@ def solve_conforming_rolling(scene: RollingContactScene, grid: Grid, tolerance: 
     return Site(grid, gap, found.contact, False), found
 
 
-def rolled_together(scene: RollingContactScene, context: Context) -> tuple[Site, CurvedRolling]:
+def roll_on_curved_rail(scene: RollingContactScene, context: Context) -> tuple[Site, CurvedRolling]:
     """Solve the contact of a scene under friction, and note what its profiles do."""
     grid = build.grid_of(scene.grid)
     with context.timer("rolling"):
-        site, found = solve_conforming_rolling(scene, grid, scene.contact.tolerance)
+        site, found = solve_on_curved_rail(scene, grid, scene.contact.tolerance)
     tell(context, found.contact.notes)
     wheel_rail.tell_profiles(scene, grid, found.contact, context)
     return site, found
 
 
-def bars_of_conforming(scene: RollingContactScene, site: Site, found: CurvedRolling) -> ErrorBars:
+def bars_on_curved_rail(scene: RollingContactScene, site: Site, found: CurvedRolling) -> ErrorBars:
     """Estimate errors from the same rolling on the grid of twice the cell; of the resultant of the pressures it is the
     difference to that grid."""
     from bem.accuracy import Coarser, ContactCase, ErrorBars, contact_bars
@@ -73,7 +73,7 @@ def bars_of_conforming(scene: RollingContactScene, site: Site, found: CurvedRoll
     unknown = (*figures, "lateral_force", "load", "contact_area_fraction")
     if reason is not None:
         return ErrorBars.unknown(unknown, reason)
-    there, coarse = solve_conforming_rolling(scene, half_grid(site.grid), COARSER_TOLERANCE)
+    there, coarse = solve_on_curved_rail(scene, half_grid(site.grid), COARSER_TOLERANCE)
     if not coarse.contact.status is coarse.rolling.status is Status.CONVERGED:
         return ErrorBars.unknown(unknown, NoBar.COARSER_UNSOLVED)
     friction = scene.roll.friction
