@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from pydantic.fields import FieldInfo
+
 from bem.elements.answer import PLACES, all_notes, answer, balance_heat, table_columns
 from bem.elements.element import MODELS, Element, element_template, load_element
 from bem.elements.figure import element_figure
@@ -18,9 +20,10 @@ from bem.elements.running import Running, run_all
 from bem.errors import InputError
 from bem.notes import Level
 from bem.scenes.edit import table_text
+from bem.scenes.keys import reason_of
 from bem.scenes.oil import OilScene
 from bem.scenes.paths import parse_key, put
-from bem.scenes.values import plain_value
+from bem.scenes.values import dumped, plain_value
 
 _LINE = re.compile(
     r'(?P<off># )?(?P<key>[a-z_0-9]+) = (?P<value>"[^"]*"|\[.*?\]|\{.*?\}|[^#]*?)\s*(#\s*(?P<words>.*))?'
@@ -37,10 +40,14 @@ _MORE = {
     "profile": "such as straight; of rollers, logarithmic without it",
     "structure_factor": "such as 0.8; X_W of the steel for scuffing, 1 for case-hardened",
     "boundary_friction": "such as 0.10; of asperity contacts, 0.12 without it",
+    "bore": "such as 20.04 mm; of the bush, in place of shaft_diameter or clearance: empty the other one",
+    "thermal": 'such as full: heat across the films, or off; without it "lumped", one mean temperature',
+    "mean_particle_volume": "such as 0.01 um^3; with specific_wear_rate, for the number of particles per hour",
+    "permissible_film_ratio": "such as 0.5; for a safety against micropitting, of a test with this oil and finish",
+    "name": "such as pump-2; of the file and of its scenes",
     "oil.base": "such as pao, ester, pag; mineral without it",
-    "oil.pressure_viscosity": "such as 20 1/GPa; without it that of the oil",
 }
-"""Keys that templates do not name, with their meaning."""
+"""Keys that templates do not name, with their meaning; those of the oil have it in `OilScene`."""
 
 
 @dataclass(frozen=True)
@@ -97,10 +104,30 @@ def fields_of(name: str) -> list[Field]:
             if not basic:
                 words = f"such as {typed}; {words}".removesuffix("; ")
             found.append(Field(inside + entry["key"], typed if basic else "", words, basic))
-    named = {field.key for field in found}
-    known = {*MODELS[name].model_fields, *(f"oil.{key}" for key in OilScene.model_fields)}
-    found += [Field(key, "", words, False) for key, words in _MORE.items() if key in known - named]
+    named = {field.key for field in found} | {field.key.partition(".")[0] for field in found}
+    found += [Field(key, "", words, False) for key, words in _known_keys(name).items() if key not in named]
     return sorted(found, key=lambda field: not field.basic)
+
+
+def _known_keys(name: str) -> dict[str, str]:
+    """Return all dotted keys of an element's file that it uses, with their meaning where templates do not say it."""
+    model = MODELS[name]
+    own = [key for key in (*model.OTHER_KEYS, *model.model_fields) if key not in ("element", *model.UNUSED_KEYS)]
+    words = {key: _MORE.get(key, "") for key in own if key != "oil"}
+    return words | {
+        f"oil.{key}": _MORE.get(f"oil.{key}") or _meaning(field) for key, field in OilScene.model_fields.items()
+    }
+
+
+def _meaning(field: FieldInfo) -> str:
+    """Return the meaning of a field that explains itself, after its example: "such as 20 mPa*s; dynamic viscosity"."""
+    said = (field.description or "").rstrip(".")
+    said += f"; without it {reason}" if (reason := reason_of(field)) else ""
+    if not field.examples:
+        return said
+    example = field.examples[0]
+    shown = example if isinstance(example, str) else dumped(example)
+    return f"such as {shown}; {said[:1].lower()}{said[1:]}"
 
 
 def table_of(name: str, typed: Mapping[str, str]) -> dict[str, Any]:

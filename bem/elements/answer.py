@@ -238,6 +238,8 @@ def _bush(element: Element, model: PlainBushModel, runs: Sequence[Running], solv
     said = None if film_of_it is None else thick_film_words(model, film_of_it)
     film = [("lambda ratio", said or _film(element, runs))] if runs else []
     rows = bush_rows(model, film_of_it)
+    if model.mean_particle_volume is not None:
+        rows.append(("particles per hour", particles_per_hour(element)))
     return (("critical contact", pressure_words(model)), *film, *rows, *_lost(element, solved))
 
 

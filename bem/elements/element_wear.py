@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bem.elements.element import Element
 from bem.elements.gear_pair import GearModel
+from bem.elements.plain_bush import PlainBushModel
 from bem.elements.running import wear_per_pass
 from bem.particles import particle_number
 
@@ -31,14 +32,15 @@ def wear_per_hour(element: Element) -> str:
 
 
 def worn_volume_rate(element: Element) -> float:
-    """Return the worn volume of both bodies per time [m^3/s], by Archard's law.
+    """Return the worn volume per time [m^3/s], by Archard's law, of both bodies; of a bush that of the bush alone.
 
     It is wear rate x load x sliding speed for each body, the mean over the positions times the number of contacts at
     once; 0 without a wear rate.
     """
     found = element.found
     slid = [one.load * abs(one.speeds[0] - one.speeds[1]) for one in found.contacts]
-    return 2 * (element.model.specific_wear_rate or 0.0) * sum(slid) / len(slid) * found.at_once
+    bodies = 1 if isinstance(element.model, PlainBushModel) else 2
+    return bodies * (element.model.specific_wear_rate or 0.0) * sum(slid) / len(slid) * found.at_once
 
 
 def particles_per_hour(element: Element) -> str:
@@ -48,7 +50,7 @@ def particles_per_hour(element: Element) -> str:
         return "not known: give specific_wear_rate, and mean_particle_volume"
     if rate == 0:
         return _ROLLS
-    worn = f"{1e9 * rate:.3g} mm^3 of both bodies"
+    worn = f"{1e9 * rate:.3g} mm^3 of {'the bush' if isinstance(element.model, PlainBushModel) else 'both bodies'}"
     if one is None:
         return f"{worn}; for a number of particles give mean_particle_volume, measured or from kind wear"
     return f"{worn}, {particle_number(rate, one):.3g} of {1e18 * one:.3g} um^3 each"

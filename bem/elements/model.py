@@ -6,7 +6,7 @@ import math
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -73,6 +73,11 @@ class ElementModel(Table):
     `oil.temperature`; without these it is that at the bulk temperature.
     """
 
+    OTHER_KEYS: ClassVar[tuple[str, ...]] = ()
+    """Keys of the file that stand in place of others."""
+    UNUSED_KEYS: ClassVar[tuple[str, ...]] = ()
+    """Keys of all elements that this one has no use for, and refuses."""
+
     element: str
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,63}$")] = "element"
     description: str = ""
@@ -96,6 +101,13 @@ class ElementModel(Table):
             raise problem("heat_balance without the temperature of an oil", "oil.temperature beside heat_balance")
         if self.heat_balance is not None and self.heat_balance.conductance is None:
             raise problem("heat_balance without conductance", 'heat_balance = { conductance = "30 W/K" }')
+        return self
+
+    @model_validator(mode="after")
+    def _all_used(self) -> Self:
+        unused = [key for key in self.UNUSED_KEYS if getattr(self, key) is not None]
+        if unused:
+            raise problem(f"{' and '.join(unused)} of a {self.element}, which has no use for it", "the file without it")
         return self
 
     @model_validator(mode="after")

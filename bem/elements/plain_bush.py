@@ -106,7 +106,7 @@ class PlainBushModel(ElementModel):
     """
 
     OTHER_KEYS: ClassVar = ("bore",)
-    """Keys that stand in place of others."""
+    UNUSED_KEYS: ClassVar = ("permissible_film_ratio",)
 
     element: Literal["plain-bush"] = "plain-bush"
     shaft_diameter: PositiveLength

@@ -11,6 +11,7 @@ from bem.app.starts import TASKS
 from bem.elements.answer import balance_heat
 from bem.elements.element import MODELS, element_template, load_element
 from bem.scenes.edit import table_text
+from bem.scenes.oil import OilScene
 
 pytestmark = pytest.mark.internal
 
@@ -25,6 +26,26 @@ def test_the_form_begins_as_the_template(name):
     assert load_element(table_of(name, typed(name))).model == load_element(own).model
     assert tomllib.loads(file_of(name, typed(name))) == own
     assert all(field.words for field in fields_of(name) if not field.basic)
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_the_form_offers_every_key_of_the_element(name):
+    """Keys of the model, those that stand in their place and those of the oil; the element refuses any other one."""
+    model = MODELS[name]
+    keys = {*model.model_fields, *model.OTHER_KEYS, *(f"oil.{key}" for key in OilScene.model_fields)}
+    fields = [field.key for field in fields_of(name)]
+    assert len(set(fields)) == len(fields)
+    tables = {key.partition(".")[0] for key in fields} - {"oil"}
+    assert keys - {*fields, *tables} == {"element", "oil", *model.UNUSED_KEYS}
+    for key in model.UNUSED_KEYS:
+        with pytest.raises(InputError, match=f"{key} of a {name}"):
+            load_element(table_of(name, typed(name, **{key: "0.5"})))
+
+
+def test_a_bush_by_its_bore():
+    model = load_element(table_of("plain-bush", typed("plain-bush", bore="20.04 mm", clearance="", thermal="off"))).model
+    assert model.clearance == pytest.approx(40e-6)
+    assert model.thermal == "off"
 
 
 def test_every_key_beside_the_template_is_a_key_of_the_element():

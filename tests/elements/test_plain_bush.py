@@ -587,6 +587,14 @@ def test_the_life_is_at_most_that_of_a_bush_worn_step_by_step(depth):
         assert slid == pytest.approx(least, rel=5e-3)
 
 
+def test_particles_of_a_bush_are_its_worn_volume():
+    """Archard's law, k F v; the shaft does not wear."""
+    element = load_element(WORN | {"mean_particle_volume": "1 um^3"})
+    volume = 1e-15 * 500 * element.model.sliding_speed * 3600
+    said = dict(answer(element, ()))["particles per hour"]
+    assert said.startswith(f"{1e9 * volume:.3g} mm^3 of the bush, {volume / 1e-18:.3g} of")
+
+
 def test_wear_and_life_in_words():
     element = load_element(WORN)
     said = dict(answer(element, ()))
