@@ -195,10 +195,10 @@ PATCH_SINKS = define(
 CYLINDER_NARROW = define(
     "cylinder-narrow",
     CAUTION,
-    "The cylinder is too narrow for a line contact.",
-    "Its length is {ratio:.2g} times the contact width 2a; a line contact needs five.",
-    "Make the cylinder longer, or the contact narrower by less load or a smaller radius; else take the film as an "
-    "upper bound, as oil leaves at both ends.",
+    "The contact is short for a line contact, which has no ends.",
+    "Its length is {ratio:.2g} times its width 2a; a line contact needs five.",
+    "Take the film as an upper bound, as oil leaves at both ends of a roller or bush; less load or a longer one "
+    "reduces the error.",
 )
 
 # The mesh

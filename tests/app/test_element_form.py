@@ -43,7 +43,8 @@ def test_the_form_offers_every_key_of_the_element(name):
 
 
 def test_a_bush_by_its_bore():
-    model = load_element(table_of("plain-bush", typed("plain-bush", bore="20.04 mm", clearance="", thermal="off"))).model
+    by_bore = typed("plain-bush", bore="20.04 mm", clearance="", thermal="off")
+    model = load_element(table_of("plain-bush", by_bore)).model
     assert model.clearance == pytest.approx(40e-6)
     assert model.thermal == "off"
 

@@ -20,7 +20,7 @@ from bem.elements.plain_bush import DRY_FRICTION as DRY_FRICTIONS
 from bem.elements.plain_bush import WORN_IN, crescent_distance, sliding_to_depth
 from bem.elements.running import run_all
 from bem.notes import Level
-from bem.notes.checks import SLOPES_LARGE
+from bem.notes.checks import CAP_NOT_OF_SOFTER, CYLINDER_NARROW, SLOPES_LARGE
 from bem.notes.elements import (
     BUSH_CONFORMS,
     BUSH_FLOATS,
@@ -37,6 +37,7 @@ from bem.notes.elements import (
     VISCOSITY_FIXED,
 )
 from bem.reference_solutions.journal_bearing import journal_film, sommerfeld_number
+from bem.scenes.checks import examine, scene_warnings
 from bem.scenes.load import load_scene
 
 TEMPLATE = tomllib.loads(element_template("plain-bush")) | {"name": "bush"}
@@ -661,6 +662,17 @@ def test_the_command(tmp_path):
     mixed = bem("element", "pump.toml", "--scene", "mixed.toml", "--kind", "friction")
     assert mixed.returncode == 0, mixed.stderr
     assert 'kind = "friction"' in (tmp_path / "mixed.toml").read_text()
+
+
+@pytest.mark.parametrize("bush", ["pom", "pa66", "ptfe", "peek"])
+def test_the_mixed_scene_of_a_polymer_bush_asks_for_nothing_of_its_material(bush):
+    """Its asperities are capped by the bush's own hardness, and the caution on its ends is one of a bush too."""
+    element = load_element(WATER | {"second": bush, "bulk_temperature": "30 degC"})
+    facts = examine(plan_scene(element.scene(element.worst(), "friction"))[0])
+    notes = {note.code: note for note in scene_warnings(facts)}
+    assert CAP_NOT_OF_SOFTER.code not in notes
+    assert "bush" in str(notes[CYLINDER_NARROW.code])
+    assert max(case.cap for case in facts.cases) < 0.3e9
 
 
 def test_a_wall_makes_the_bush_stiffer():

@@ -126,7 +126,7 @@ CASES = {
         with_(BALL, lower__material=material("200 GPa", hardness="20 GPa")),
     ),
     "softer_body_without_hardness": (
-        (with_(BALL, **capped_by_steel("pom")), "Give pom a hardness of its own"),
+        (with_(BALL, **capped_by_steel("phosphor-bronze")), "Give phosphor-bronze a hardness of its own"),
         with_(BALL, **capped_by_steel("peek")),
     ),
     "yield_against_hardness": (
