@@ -27,14 +27,16 @@ The formula of g: J. R. Willis, J. Mech. Phys. Solids 14 (1966) 163, and J. R. B
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
 from bem.grid import FloatArray, Grid
 from bem.kernels import semi_periodic
-from bem.kernels.cell_integrals import cell_table, image_sum
+from bem.kernels.cell_integrals import PointResponse, cell_table, image_sum
 from bem.kernels.loads import Load
 from bem.materials import Material
+from bem.numerics.clenshaw import cosine_sum, sine_sum
 from bem.stiffness import Stiffness
 
 
@@ -55,13 +57,13 @@ def surface_response(kx: FloatArray, ky: FloatArray, material: Material) -> Floa
     kx, ky : broadcast together [rad/m].
     """
     q, cosine, _ = _polar(kx, ky)
-    return np.where(q > 0, _clenshaw(_harmonics(material)[0], cosine) / np.where(q > 0, q, 1.0), 0.0)
+    return np.where(q > 0, cosine_sum(_harmonics(material)[0], cosine) / np.where(q > 0, q, 1.0), 0.0)
 
 
 def odd_surface_response(kx: FloatArray, ky: FloatArray, material: Material) -> FloatArray:
     """Return the part of u / p [m/Pa] of harmonic pressures that is odd in kx and in ky; see `surface_response`."""
     q, cosine, sine = _polar(kx, ky)
-    return np.where(q > 0, _clenshaw_sines(_harmonics(material)[1], cosine, sine) / np.where(q > 0, q, 1.0), 0.0)
+    return np.where(q > 0, sine_sum(_harmonics(material)[1], cosine, sine) / np.where(q > 0, q, 1.0), 0.0)
 
 
 def _polar(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -79,16 +81,16 @@ def surface_table(grid: Grid, material: Material) -> FloatArray:
     """
     even = _harmonics(material)[0]
     if grid.periodic[0]:  # with the axes exchanged: theta becomes pi/2 - theta
-        turned = even * (-1.0) ** np.arange(len(even))
-        return np.ascontiguousarray(_table(_exchanged(grid), turned).T)
-    return _table(grid, even)
+        turned = even * _signs(0, len(even))
+        return np.ascontiguousarray(_even_table(_exchanged(grid), turned).T)
+    return _even_table(grid, even)
 
 
 def odd_surface_table(grid: Grid, material: Material) -> FloatArray:
     """Return the part of the displacement of `surface_table` that is odd along both axes, (nx, ny)."""
     odd = _harmonics(material)[1]
     if grid.periodic[0]:
-        return np.ascontiguousarray(_odd_table(_exchanged(grid), -odd * _alternating(odd)).T)
+        return np.ascontiguousarray(_odd_table(_exchanged(grid), -odd * _signs(1, len(odd))).T)
     return _odd_table(grid, odd)
 
 
@@ -97,35 +99,31 @@ def _exchanged(grid: Grid) -> Grid:
     return Grid(grid.shape[::-1], grid.spacing[::-1], periodic=(False, True))
 
 
-def _alternating(odd: FloatArray) -> FloatArray:
-    """Return (-1)^m, m from 1, for each coefficient."""
-    return np.asarray((-1.0) ** np.arange(1, len(odd) + 1))
-
-
-def _odd_table(grid: Grid, odd: FloatArray) -> FloatArray:
-    """Return the table of a surface with the harmonics b_m on a grid that is free along x at least."""
-    response = OddCrystalPoint(odd * _alternating(odd) / (2 * np.pi))
-    unit = math.sqrt(grid.cell_area)
-    dx, dy = grid.spacing[0] / unit, grid.spacing[1] / unit
-    x, y = dx * np.arange(grid.shape[0], dtype=np.float64), dy * np.arange(grid.shape[1], dtype=np.float64)
-    table = image_sum if grid.periodic[1] else cell_table
-    return unit * table(x, y, (dx, dy), response)
-
-
-def _table(grid: Grid, even: FloatArray) -> FloatArray:
+def _even_table(grid: Grid, even: FloatArray) -> FloatArray:
     """Return the table of a surface with the harmonics a_m on a grid that is free along x at least."""
-    point = even * (-1.0) ** np.arange(len(even)) / (2 * np.pi)
-    unit = math.sqrt(grid.cell_area)
-    dx, dy = grid.spacing[0] / unit, grid.spacing[1] / unit
-    x, y = dx * np.arange(grid.shape[0], dtype=np.float64), dy * np.arange(grid.shape[1], dtype=np.float64)
+    point = even * _signs(0, len(even)) / (2 * np.pi)
     if not grid.periodic[1]:
-        return unit * cell_table(x, y, (dx, dy), CrystalPoint(point))
+        return _table_of_point(grid, CrystalPoint(point))
     material = Material("as stiff under a line load", youngs_modulus=2 / float(even.sum()), poissons_ratio=0.0)
     mean: FloatArray = semi_periodic.surface_table(grid, material, Load.NORMAL)
     if grid.shape[1] == 1:
         return mean
     point[0] -= float(even.sum()) / (2 * np.pi)  # g(pi/2), of a line load along y
-    return mean + unit * image_sum(x, y, (dx, dy), CrystalPoint(point))
+    return mean + _table_of_point(grid, CrystalPoint(point))
+
+
+def _odd_table(grid: Grid, odd: FloatArray) -> FloatArray:
+    """Return the table of a surface with the harmonics b_m on a grid that is free along x at least."""
+    return _table_of_point(grid, OddCrystalPoint(odd * _signs(1, len(odd)) / (2 * np.pi)))
+
+
+def _table_of_point(grid: Grid, response: PointResponse) -> FloatArray:
+    """Return a point response integrated over a cell, and summed over its images where y is periodic, (nx, ny)."""
+    unit = math.sqrt(grid.cell_area)
+    dx, dy = grid.spacing[0] / unit, grid.spacing[1] / unit
+    x, y = dx * np.arange(grid.shape[0], dtype=np.float64), dy * np.arange(grid.shape[1], dtype=np.float64)
+    integrate = image_sum if grid.periodic[1] else cell_table
+    return unit * integrate(x, y, (dx, dy), response)
 
 
 def _harmonics(material: Material) -> tuple[FloatArray, FloatArray]:
@@ -134,22 +132,9 @@ def _harmonics(material: Material) -> tuple[FloatArray, FloatArray]:
     return material.stiffness.harmonics
 
 
-def _clenshaw(coefficients: FloatArray, cosine: FloatArray) -> FloatArray:
-    """Return the sum of c_m cos(2 m theta) at cos(2 theta)."""
-    later, latest = np.zeros_like(cosine), np.zeros_like(cosine)
-    twice = 2 * cosine
-    for value in coefficients[:0:-1]:
-        later, latest = latest, value + twice * latest - later
-    return coefficients[0] + cosine * latest - later
-
-
-def _clenshaw_sines(coefficients: FloatArray, cosine: FloatArray, sine: FloatArray) -> FloatArray:
-    """Return the sum of c_m sin(2 m theta), m from 1, at cos(2 theta) and sin(2 theta)."""
-    later, latest = np.zeros_like(cosine), np.zeros_like(cosine)
-    twice = 2 * cosine
-    for value in coefficients[::-1]:
-        later, latest = latest, value + twice * latest - later
-    return sine * latest
+def _signs(first: int, count: int) -> FloatArray:
+    """Return (-1)^m of the orders m from the first one on."""
+    return np.asarray((-1.0) ** np.arange(first, first + count))
 
 
 class CrystalPoint:
@@ -160,24 +145,23 @@ class CrystalPoint:
     def __init__(self, coefficients: FloatArray) -> None:
         self.coefficients = coefficients
         self.along_x = _Corner(coefficients)
-        self.along_y = _Corner(coefficients * (-1.0) ** np.arange(len(coefficients)))
+        self.along_y = _Corner(coefficients * _signs(0, len(coefficients)))
 
     def value(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """Return g / r at offsets x and y."""
         squared_x, squared_y = x**2, y**2
         squared = squared_x + squared_y
-        return _clenshaw(self.coefficients, (squared_x - squared_y) / squared) / np.sqrt(squared)
+        return cosine_sum(self.coefficients, (squared_x - squared_y) / squared) / np.sqrt(squared)
 
     def near(self, x: FloatArray, y: FloatArray, a: float, b: float) -> FloatArray:
         """Return the integral of g / r over |x'| < a, |y'| < b at points (n,)."""
-        total = np.zeros_like(x)
-        for i in (-1, 1):
-            for j in (-1, 1):
-                u, v = x + i * a, y + j * b
-                right, up = np.abs(u), np.abs(v)
-                corner = right * self.along_x(right, up) + up * self.along_y(up, right)
-                total += i * j * np.sign(u) * np.sign(v) * corner
-        return total
+        return _over_rectangle(self._to_corner, x, y, a, b)
+
+    def _to_corner(self, u: FloatArray, v: FloatArray) -> FloatArray:
+        """Return the integral over the rectangle from the origin to the corner (u, v), odd in both."""
+        right, up = np.abs(u), np.abs(v)
+        corner: FloatArray = right * self.along_x(right, up) + up * self.along_y(up, right)
+        return np.sign(u) * np.sign(v) * corner
 
     def beyond(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """Return the integral of g / r along y from y to infinity, for g(pi/2) = 0."""
@@ -192,27 +176,36 @@ class OddCrystalPoint:
     def __init__(self, coefficients: FloatArray) -> None:
         self.coefficients = coefficients
         self.along_x = _OddCorner(coefficients)
-        self.along_y = _OddCorner(-coefficients * _alternating(coefficients))  # sin(2 m (pi/2 - theta))
+        self.along_y = _OddCorner(-coefficients * _signs(1, len(coefficients)))  # sin(2 m (pi/2 - theta))
 
     def value(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """Return g / r at offsets x and y."""
         squared_x, squared_y = x**2, y**2
         squared = squared_x + squared_y
         cosine, sine = (squared_x - squared_y) / squared, 2 * x * y / squared
-        return _clenshaw_sines(self.coefficients, cosine, sine) / np.sqrt(squared)
+        return sine_sum(self.coefficients, cosine, sine) / np.sqrt(squared)
 
     def near(self, x: FloatArray, y: FloatArray, a: float, b: float) -> FloatArray:
         """Return the integral of g / r over |x'| < a, |y'| < b at points (n,)."""
-        total = np.zeros_like(x)
-        for i in (-1, 1):
-            for j in (-1, 1):
-                right, up = np.abs(x + i * a), np.abs(y + j * b)
-                total += i * j * (right * self.along_x(right, up) + up * self.along_y(up, right))
-        return total
+        return _over_rectangle(self._to_corner, x, y, a, b)
+
+    def _to_corner(self, u: FloatArray, v: FloatArray) -> FloatArray:
+        """Return the integral over the rectangle from the origin to the corner (u, v), even in both."""
+        right, up = np.abs(u), np.abs(v)
+        corner: FloatArray = right * self.along_x(right, up) + up * self.along_y(up, right)
+        return corner
 
     def beyond(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """Return the integral of g / r along y from y to infinity."""
         return np.sign(x) * self.along_x.rest(np.abs(x), y)
+
+
+def _over_rectangle(
+    to_corner: Callable[[FloatArray, FloatArray], FloatArray], x: FloatArray, y: FloatArray, a: float, b: float
+) -> FloatArray:
+    """Return an integral over |x'| < a, |y'| < b at points (n,) from those over rectangles from a point to a corner."""
+    left, right, lower, upper = x - a, x + a, y - b, y + b
+    return to_corner(left, lower) - to_corner(left, upper) - to_corner(right, lower) + to_corner(right, upper)
 
 
 class _Corner:
@@ -224,7 +217,7 @@ class _Corner:
     """
 
     def __init__(self, coefficients: FloatArray) -> None:
-        signs = (-1.0) ** np.arange(len(coefficients))
+        signs = _signs(0, len(coefficients))
         tails = np.cumsum((signs * coefficients)[::-1])[::-1]
         self.logarithmic = float(tails[0])
         orders = np.arange(1, len(coefficients))
@@ -252,7 +245,7 @@ class _OddCorner:
     """
 
     def __init__(self, coefficients: FloatArray) -> None:
-        signs = _alternating(coefficients)
+        signs = _signs(1, len(coefficients))
         tails = np.cumsum((signs * coefficients)[::-1])[::-1]
         self.factors = 2 * signs * tails / (2 * np.arange(1, len(coefficients) + 1) - 1)
 

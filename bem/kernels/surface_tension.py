@@ -37,6 +37,7 @@ from bem.kernels import semi_periodic
 from bem.kernels.cell_integrals import cell_table, image_sum
 from bem.kernels.loads import Load
 from bem.materials import Material
+from bem.numerics.clenshaw import cosine_sum
 
 _LOWEST, _HIGHEST = -30, 6
 """Powers of two of t between which f is a table; below, the logarithm and t are exact, above the series is."""
@@ -113,12 +114,7 @@ class RadialFunction:
         within = t[inside]
         exponent = np.frexp(within)[1] - 1
         x = 3 * (within / (1.5 * np.exp2(exponent)) - 1)
-        columns, place = coefficients.T, exponent - _LOWEST
-        later, latest = np.zeros_like(x), np.zeros_like(x)
-        twice = 2 * x
-        for column in columns[:0:-1]:
-            later, latest = latest, column[place] + twice * latest - later
-        out[inside] = columns[0][place] + x * latest - later
+        out[inside] = cosine_sum(coefficients.T[:, exponent - _LOWEST], x)
         return out, low, high
 
 
