@@ -18,6 +18,7 @@ import numpy as np
 from bem.errors import Status
 from bem.friction.boundary import BoundaryFriction, filled_part
 from bem.grid import FloatArray, Grid
+from bem.notes import Note
 from bem.numerics.monotone import MonotoneCubic
 
 FADES = 0.05
@@ -38,6 +39,7 @@ class SolvedCell:
     opening_error : error of the opening that the contact's tolerance leaves [m].
     status : outcome.
     perimeter : length of the contact's boundary [m].
+    notes : of the contact solver, such as on an area that the cells do not resolve.
     """
 
     mean_pressure: float
@@ -49,6 +51,7 @@ class SolvedCell:
     opening_error: float
     status: Status
     perimeter: float = 0.0
+    notes: tuple[Note, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,6 +129,10 @@ class CellLaw:
             (1 - part) * one.pressure + part * other.pressure,
             (1 - part) * one.displacement + part * other.displacement,
         )
+
+    def notes_at(self, pressure: float) -> tuple[Note, ...]:
+        """Return the notes on the tabulated cell whose mean pressure is nearest to a pressure [Pa] on a log scale."""
+        return self.cells[int(np.argmin(np.abs(self._logarithms - math.log(pressure))))].notes
 
     @property
     def status(self) -> Status:

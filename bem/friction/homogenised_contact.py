@@ -39,6 +39,7 @@ from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
 from bem.notes import Note
 from bem.notes.friction import REPEATED_PATCH
+from bem.plausibility import without_argument_notes
 from bem.surfaces.spectrum import correlation_lengths
 
 LEAST, MOST, STEPS = 1e-4, 4.0, 28
@@ -138,7 +139,7 @@ class HomogenisedContact(OfPatch):
                 cell_pressure, displacement, spread.pressure, spread.load / n, area / n, perimeter / n
             ),
             separation=np.full(setup.grid.shape[:1], float(law.separation(np.array(float(logarithm.max())))[0])),
-            notes=self._notes(spread.pressure),
+            notes=self._notes(spread.pressure) + law.notes_at(_carrying_pressure(spread.pressure)),
             opening_error=goal + max(cell.opening_error for cell in law.cells),
             touching_fraction=share,
             cells=law,
@@ -180,6 +181,7 @@ class HomogenisedContact(OfPatch):
             opening_error=self.tolerance * float(rough.std()),
             status=found.status,
             perimeter=found.contact_perimeter,
+            notes=without_argument_notes(found.notes),
         )
 
     def _hertz(self) -> FloatArray:
@@ -209,6 +211,11 @@ class HomogenisedContact(OfPatch):
             limit = float(self._pressures[-1])
             notes.append(REPEATED_PATCH(pressure=float(pressure.max()), limit=limit, reason="pressure"))
         return tuple(notes)
+
+
+def _carrying_pressure(pressure: FloatArray) -> float:
+    """Return the mean of pressures (n, m) [Pa] weighted by the load that they carry."""
+    return float((pressure**2).sum() / pressure.sum())
 
 
 @dataclass(frozen=True, eq=False)

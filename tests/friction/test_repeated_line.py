@@ -139,6 +139,20 @@ def test_long_waves_are_said():
 
 
 @pytest.mark.internal
+def test_an_area_that_the_cells_do_not_resolve_is_said_as_of_a_patch():
+    """Repeated patches said 4.7 ± 2.5 % of contact without the caution of a patch that holds the contact."""
+    grid = Grid((64, 64), (1e-6, 1e-6), periodic=(True, True))
+    for rms, said in ((100e-9, True), (5e-9, False)):
+        height = generate_surface(grid, rms_height=rms, seed=2, correlation_length=1.6e-6)
+        setup = MixedSetup(**{**LINE, "grid": grid, "hardness": 3e9})
+        contact = rough_contact(setup, height, SPEEDS)
+        pressed = contact.at_load(films_of(setup, SPEEDS).under(1.0, 0, None), 539.0, 1e-5, None)
+        assert [note.values["reason"] for note in pressed.notes if note.code == "contact-unresolved"] == [
+            "spots"
+        ] * said
+
+
+@pytest.mark.internal
 def test_error_bars_cover_the_finer_patch():
     """36 cases of steel and PEEK, with and without hardness, had at most 0.54 of their bars."""
     side, found = 128e-6, []
