@@ -6,11 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from bem.elements.bush_polymers import LARGEST_EXPANSION, LEAST_EXPANSION, SERVICE_TEMPERATURE
 from bem.elements.model import LEAST_ASPERITY_SHARE
 from bem.elements.plain_bush import (
     AREA_FACTOR,
-    EXPANSION,
-    SERVICE_TEMPERATURES,
     TRANSFER,
     WORN_IN,
     PlainBushModel,
@@ -133,7 +132,7 @@ def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[f
     known, bush = model.dry_friction, model.second.build().name
     if known is None:
         return None, f"give friction, measured against this shaft: none is known of {bush}, {dry}"
-    return known[0] * slid, f"friction coefficient {known[0]:g} assumed for {bush}, {dry}: {known[1]}"
+    return known.value * slid, f"friction coefficient {known.value:g} assumed for {bush}, {dry}: {known.source}"
 
 
 def bush_temperature(model: PlainBushModel, power: float) -> float:
@@ -197,8 +196,8 @@ def _temperature_notes(model: PlainBushModel, film: FilmOfBush | None, temperatu
         reason = "temperature" if model.maximum_temperature is None else "given"
         notes.append(BUSH_OVER_LIMIT(value=temperature - ZERO_CELSIUS, limit=highest - ZERO_CELSIUS, reason=reason))
     closing = model.closing_expansion(temperature)
-    if closing is not None and closing < EXPANSION[1]:
-        low, high = EXPANSION
+    low, high = LEAST_EXPANSION.value, LARGEST_EXPANSION.value
+    if closing is not None and closing < high:
         notes.append(
             BUSH_SWELLS(
                 bush=temperature - ZERO_CELSIUS, closing=closing, clearance=model.radial_clearance, low=low, high=high
@@ -260,7 +259,8 @@ def _temperature(model: PlainBushModel, power: float | None) -> str:
     highest = model.service_temperature
     if highest is None:
         return f"{said}; no limit given (maximum_temperature)"
-    source = "given" if model.maximum_temperature is not None else SERVICE_TEMPERATURES[model.second.build().name][1]
+    given = model.maximum_temperature is not None
+    source = "given" if given else SERVICE_TEMPERATURE[model.second.build().name].source
     return f"{said}; limit {highest - ZERO_CELSIUS:.3g} °C ({source})"
 
 

@@ -18,6 +18,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from bem.contact.shaft_in_bush import ShaftContact, ShaftInBush, solve_shaft_in_bush
+from bem.elements.bush_polymers import DRY_FRICTION, SERVICE_TEMPERATURE, SourcedValue
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.lubrication.oils.catalogue import find_oil
@@ -30,44 +31,9 @@ from bem.scenes.units import Angle, Dimension, Force, Rate, Ratio, RotationSpeed
 
 HOUSING = "steel-52100"
 """Material around a wall where none is given; any metal is nearly rigid beside a polymer."""
-DRY_FRICTION = {
-    "peek": (
-        0.35,
-        "between 0.3, the highest of Lind et al. (Tribologia) at 120 °C, and 0.4 of data of PEEK 450G, both against "
-        "steel",
-    ),
-    "ptfe": (0.1, "unfilled on steel, about 0.1 in a catalogue of PBC Linear; 0.05 to 0.2, more at higher speed"),
-    "pom": (0.25, "0.15 to 0.25 in a supplier's table; 0.1 to 0.3 at rest on steel (CRC Materials Science Handbook)"),
-    "pa66": (0.3, "0.2 to 0.3 in a supplier's table; 0.32 of cast PA 6 (CRC Materials Science Handbook)"),
-}
-"""Friction coefficient of dry, unfilled bushes of the catalogue on steel, near the upper end, and where it is from.
-
-All are second hand, from abstracts and excerpts that a search showed; the pages themselves were not read. 0.05 of PTFE
-is in the abstract of doi 10.1108/eb052334; the supplier is Kintek, the handbook Shackelford's (table 399). Lind et al.:
-Friction and wear studies of some PEEK materials, abstract. The datum of PEEK 450G is quoted in a thread of eng-tips.
-"""
 TRANSFER, AREA_FACTOR = 15.0, 15.0
 """Without a conductance heat leaves by 15 W/(m^2 K) through 15 times diameter times length: still air around a small
 bearing block, the lower ends of the usual ranges 15 to 20 of both (DIN 31652, from memory, not checked)."""
-SERVICE_TEMPERATURES = {
-    "peek": (523.15, "continuous use of PEEK: W. Hufenbach, K. Kunze and J. Bijwe (2003), introduction"),
-    "ptfe": (533.15, "working temperature of PTFE: Mechanical Engineer's Data Handbook; it melts at 327 °C"),
-    "pom": (
-        373.15,
-        "continuous use of POM, about 100 °C (from memory); it melts at 162 to 175 °C",
-    ),
-    "pa66": (
-        373.15,
-        "continuous use of PA 66, middle of 80 (from memory) and 120 °C; it melts at 260 °C",
-    ),
-}
-"""Highest temperature of a bush by material of the catalogue [K], with its source.
-
-Those of PTFE, POM and PA 66 are second hand. Excerpts that a search showed have the 260 °C of PTFE (page 243 of the
-handbook), its 327 °C (abstract of doi 10.1108/eb052334), 162 to 175 °C of POM (Craftech), 120 °C of PA 66 and a melting
-point of 264 °C (data sheet of Nylatron 66 SA FR). The continuous use of POM and the 80 °C of PA 66 are from memory; a
-chart of Ensinger has both materials between 100 and 150 °C. No page was read in the original.
-"""
 FAR_FROM_CYLINDER = 0.05
 """Deviation of the equivalent cylinder's peak pressure from that of shaft and bush above which it is said."""
 LONG = 5.0
@@ -79,8 +45,6 @@ GLYCOL = 5e-9
 """Pressure-viscosity coefficient of water-glycol [1/Pa], the middle of the usual 4 to 6 1/GPa; not measured."""
 POLYMER = 20e9
 """Young's modulus [Pa] below which a bush is taken for a polymer; unfilled ones have up to 5 GPa, soft metals 15."""
-EXPANSION = (5e-5, 1.5e-4)
-"""Usual linear expansion coefficients of unfilled polymers [1/K]: PEEK about 5e-5, PTFE about 1.5e-4; from memory."""
 WATERY = 4000.0
 """Heat capacity [J/(kg K)] from which a liquid is taken for water; glycol and water have up to 3900."""
 PressureVelocity = Annotated[float, Dimension("W/m^2", "a pressure times a speed", "0.2 MPa*m/s")]
@@ -221,8 +185,8 @@ class PlainBushModel(ElementModel):
     @property
     def service_temperature(self) -> float | None:
         """Highest temperature of the bush [K], given or of its material; None where neither is known."""
-        known = SERVICE_TEMPERATURES.get(self.second.build().name)
-        return self.maximum_temperature or (None if known is None else known[0])
+        known = SERVICE_TEMPERATURE.get(self.second.build().name)
+        return self.maximum_temperature or (None if known is None else known.value)
 
     @property
     def balanced(self) -> bool:
@@ -230,8 +194,8 @@ class PlainBushModel(ElementModel):
         return self.bulk_temperature is not None and self.heat_balance is not None
 
     @property
-    def dry_friction(self) -> tuple[float, str] | None:
-        """Friction coefficient of the dry bush, and where it is from; None of a material that has none."""
+    def dry_friction(self) -> SourcedValue | None:
+        """Friction coefficient of the dry bush; None of a material that has none."""
         return DRY_FRICTION.get(self.second.build().name)
 
     @cached_property

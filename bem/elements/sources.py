@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from bem.elements import element_wear, rating_life, reference_life, running, scuffing
+from bem.elements.bush_polymers import SERVICE_TEMPERATURE
 from bem.elements.cam_follower import CamModel
 from bem.elements.element import Element
 from bem.elements.gear_pair import GearModel
 from bem.elements.piston_ring import PistonRingModel
-from bem.elements.plain_bush import AREA_FACTOR, SERVICE_TEMPERATURES, TRANSFER, PlainBushModel
+from bem.elements.plain_bush import AREA_FACTOR, TRANSFER, PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.physical_constants import ZERO_CELSIUS
 from bem.reference_solutions import pin_in_hole
@@ -42,10 +43,10 @@ def constants_of_element(element: Element) -> dict[str, str]:
             "Michell's stress functions: Timoshenko and Goodier, Theory of Elasticity, from memory"
         )
     if model.oil is None and model.friction is None and model.dry_friction is not None:
-        found[f"friction of dry {bush}"] = f"{model.dry_friction[0]:g}: {model.dry_friction[1]}"
-    if model.maximum_temperature is None and bush in SERVICE_TEMPERATURES:
-        highest, source = SERVICE_TEMPERATURES[bush]
-        found[f"highest temperature of {bush}"] = f"{highest - ZERO_CELSIUS:g} degC: {source}"
+        found[f"friction of dry {bush}"] = f"{model.dry_friction.value:g}: {model.dry_friction.source}"
+    if model.maximum_temperature is None and bush in SERVICE_TEMPERATURE:
+        highest = SERVICE_TEMPERATURE[bush]
+        found[f"highest temperature of {bush}"] = f"{highest.value - ZERO_CELSIUS:g} degC: {highest.source}"
     given = model.heat_balance is not None and model.heat_balance.conductance is not None
     if model.bulk_temperature is None and not given:
         found["heat conductance"] = (

@@ -13,10 +13,10 @@ from bem import InputError, plan_scene, run_scene
 from bem.app.element_form import answered, file_of
 from bem.contact.shaft_in_bush import ShaftInBush
 from bem.elements.answer import all_notes, answer, answer_notes, balance_heat, table_columns
+from bem.elements.bush_polymers import DRY_FRICTION as DRY_FRICTIONS
 from bem.elements.cases import columns
 from bem.elements.element import element_template, load_element
 from bem.elements.figure import element_figure
-from bem.elements.plain_bush import DRY_FRICTION as DRY_FRICTIONS
 from bem.elements.plain_bush import WORN_IN, crescent_distance, sliding_to_depth
 from bem.elements.running import run_all
 from bem.notes import Level
@@ -44,7 +44,7 @@ TEMPLATE = tomllib.loads(element_template("plain-bush")) | {"name": "bush"}
 WATER = {key: value for key, value in TEMPLATE.items() if key != "heat_balance"}
 DRY = {key: value for key, value in WATER.items() if key != "oil"}
 THIN = {"viscosity": "0.653 mPa*s", "pressure_viscosity": "0 1/GPa"}
-DRY_FRICTION = DRY_FRICTIONS["peek"][0]
+DRY_FRICTION = DRY_FRICTIONS["peek"].value
 WORN = DRY | {"specific_wear_rate": "1e-6 mm^3/(N*m)", "permitted_wear": "0.1 mm"}
 
 
@@ -397,9 +397,9 @@ def test_the_bore_stands_for_diameter_or_clearance():
 
 
 def test_dry_friction_is_that_of_the_polymer_or_asked_for():
-    assert 0.05 <= DRY_FRICTIONS["ptfe"][0] <= 0.2
+    assert 0.05 <= DRY_FRICTIONS["ptfe"].value <= 0.2
     teflon = dict(answer(load_element(DRY | {"second": "ptfe"}), ()))
-    power = DRY_FRICTIONS["ptfe"][0] * 500 * math.pi * 0.02 * 5
+    power = DRY_FRICTIONS["ptfe"].value * 500 * math.pi * 0.02 * 5
     assert teflon["friction power"].startswith(f"{power:.3g} W")
     bronze = load_element(DRY | {"second": "phosphor-bronze"})
     assert "give friction" in dict(answer(bronze, ()))["friction power"]
