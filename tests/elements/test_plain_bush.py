@@ -38,6 +38,7 @@ from bem.notes.elements import (
 )
 from bem.reference_solutions.journal_bearing import journal_film, sommerfeld_number
 from bem.scenes.checks import examine, scene_warnings
+from bem.scenes.checks.overview import common
 from bem.scenes.load import load_scene
 
 TEMPLATE = tomllib.loads(element_template("plain-bush")) | {"name": "bush"}
@@ -507,6 +508,13 @@ def test_a_wall_is_a_layer_of_films_and_scenes(tmp_path):
     made = element.scene(element.worst(), "contact") | {"outputs": {"errors": False}}
     dry = run_scene(made, tmp_path / "dry", figures=False).summary
     assert dry["max_pressure_Pa"] == pytest.approx(model.cylinder.maximum_pressure, rel=0.01)
+    shown = dict(common(examine(plan_scene(made)[0])))
+    number, unit = shown["highest pressure on the layer"].split()
+    assert unit == "MPa"
+    assert 1e6 * float(number) == pytest.approx(dry["max_pressure_Pa"], rel=0.01)
+    width, length = (float(shown[name].split()[0]) for name in ("half-width on the layer", "lengths"))
+    assert dry["contact_area_fraction"] == pytest.approx(2 * width / length, rel=0.01)
+    assert "Hertz" not in " ".join(shown)
     pressure, width = model.cylinder_deviation()
     assert -0.07 < pressure < 0 < width < 0.07
     runs = run_all(element)

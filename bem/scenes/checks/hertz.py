@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from bem.errors import InputError
 from bem.materials import Body, contact_modulus
 from bem.quantities import si
 
@@ -13,6 +14,9 @@ LARGEST_SLOPE = 0.2
 4.1); at 0.2 a parabola misses 1 % of a circle's depth, and lengths along the surface 2 %."""
 STEEP = 0.5
 """A slope at which lengths along a surface are 12 % off (slope^2 / 2): no result of half-spaces is to be believed."""
+_THINNEST_LAYER = 0.05
+"""Thickness of a layer over the half-width of Hertz' line contact below which plans do not solve it: hard coatings of
+this thickness change the contact by a few per cent, and thinner layers take longer."""
 
 
 @dataclass(frozen=True)
@@ -104,6 +108,33 @@ def smooth_contact(
             stiffer = _modulus_under_tension(lower, upper, math.sqrt(math.prod(point.semi_axes)))
             point = ellipse_contact(radii=radii, contact_modulus=stiffer, load=load)
     return SmoothContact(radii, point.semi_axes, point.maximum_pressure, point.approach, modulus)
+
+
+def line_contact_on_layer(lower: Body, upper: Body | None, smooth: SmoothContact) -> tuple[float, float] | None:
+    """Return half-width [m] and highest pressure [Pa] of a line contact on the one layer of one of the bodies.
+
+    smooth : line contact of the substrates under the same load.
+    None for other layers, a rigid body, crystals, surface tension, a layer far thinner than the half-width, and a
+    contact modulus that is not that of the substrates.
+    """
+    from bem.contact.shaft_in_bush import cylinder_on_layer
+
+    if upper is None or not smooth.line or len(lower.layers) + len(upper.layers) != 1:
+        return None
+    if smooth.contact_modulus != contact_modulus(lower.material, upper.material):
+        return None
+    layered, other = (lower, upper) if lower.layers else (upper, lower)
+    (layer,) = layered.layers
+    load = 0.5 * math.pi * smooth.semi_axes[0] * smooth.maximum_pressure
+    if layer.thickness < _THINNEST_LAYER * smooth.semi_axes[0]:
+        return None
+    try:
+        return cylinder_on_layer(
+            other.material, layer.material, layered.material,
+            thickness=layer.thickness, radius=smooth.radii[0], load=load,
+        )  # fmt: skip
+    except InputError:
+        return None
 
 
 def _modulus_under_tension(lower: Body, upper: Body | None, radius: float) -> float:

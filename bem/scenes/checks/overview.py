@@ -10,6 +10,7 @@ from bem.notes.note import percent
 from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import si
 from bem.scenes.checks.facts import Case, Facts
+from bem.scenes.checks.hertz import SmoothContact, line_contact_on_layer
 from bem.scenes.checks.words import times
 
 if TYPE_CHECKING:
@@ -135,23 +136,37 @@ def _column(case: Case) -> dict[str, str]:
         found["mean pressure"] = "" if case.mean_pressure is None else si(case.mean_pressure, "Pa")
     found["highest pressure"] = "" if case.cap is None else f"{si(case.cap, 'Pa')} (hardness)"
     if smooth is not None:
-        name = "half-width" if smooth.line else "semi-axes" if len(set(smooth.semi_axes)) > 1 else "radius"
-        sizes = tuple(a for a in smooth.semi_axes if math.isfinite(a))
-        layered = any(body is not None and body.layers for body in (case.lower, case.upper))
-        without = " without layers" if layered else ""
-        found[f"Hertz {name}{without}"] = " x ".join(si(a, "m") for a in dict.fromkeys(sizes))
-        found[f"Hertz pressure{without}"] = si(smooth.maximum_pressure, "Pa")
-        found[f"Hertz approach{without}"] = "" if smooth.approach is None else si(smooth.approach, "m")
+        semi_axes = smooth.semi_axes
+        on_layer = line_contact_on_layer(case.lower, case.upper, smooth)
+        if on_layer is not None:
+            semi_axes = (on_layer[0], math.inf)
+            found["half-width on the layer"] = si(on_layer[0], "m")
+            found["highest pressure on the layer"] = si(on_layer[1], "Pa")
+        else:
+            found |= _hertz(case, smooth)
         if grid is not None:
-            across = [2 * a / d for a, d in zip(smooth.semi_axes, grid.spacing, strict=True) if math.isfinite(a)]
+            across = [2 * a / d for a, d in zip(semi_axes, grid.spacing, strict=True) if math.isfinite(a)]
             found["cells across it"] = f"{min(across):.3g}"
-            share = max(2 * a / n for a, n in zip(smooth.semi_axes, grid.lengths, strict=True) if math.isfinite(a))
+            share = max(2 * a / n for a, n in zip(semi_axes, grid.lengths, strict=True) if math.isfinite(a))
             found["of the grid"] = percent(share) if share <= 1 else f"{share:.2g} times its length"
     if case.depths:
         deepest = f"{len(case.depths)} down to {si(case.depths[-1], 'm')}"
         steps = [b - a for a, b in zip(case.depths, case.depths[1:], strict=False)]
         found["depths"] = deepest + (f", steps {_range(steps, 'm')}" if steps else "")
     return found
+
+
+def _hertz(case: Case, smooth: SmoothContact) -> dict[str, str]:
+    """Describe Hertz' contact of the substrates; its names say where it leaves out layers."""
+    name = "half-width" if smooth.line else "semi-axes" if len(set(smooth.semi_axes)) > 1 else "radius"
+    sizes = tuple(a for a in smooth.semi_axes if math.isfinite(a))
+    layered = any(body is not None and body.layers for body in (case.lower, case.upper))
+    without = " without layers" if layered else ""
+    return {
+        f"Hertz {name}{without}": " x ".join(si(a, "m") for a in dict.fromkeys(sizes)),
+        f"Hertz pressure{without}": si(smooth.maximum_pressure, "Pa"),
+        f"Hertz approach{without}": "" if smooth.approach is None else si(smooth.approach, "m"),
+    }
 
 
 def _body(body: Body) -> str:
