@@ -1,12 +1,13 @@
 """Frictionless contact on a curved surface by constrained conjugate gradients (Polonsky and Keer 1999).
 
-The upper body approaches along a fixed direction by `approach`, a row's gap closes by its component along the row's
-normal, c = cos(angle to the direction):
+The upper body moves by the approach along a fixed direction. The gap of a row is measured along the row's normal, and
+closes by the component of the approach along it, c approach with c the cosine of the angle between both:
 
     gap + displacement - c approach = 0 where p > 0,   >= 0 where p = 0,   load = area x sum of c p.
 
-In q = c p and with displacement and gap over c this is a contact problem with one approach: the operator stays
-symmetric, and the algorithm is that of flat surfaces. The residual is recomputed from the pressure that is returned.
+In the projected pressure q = c p, and with displacement and gap over c, this is a contact problem with one approach:
+the operator stays symmetric, and the algorithm is that of flat surfaces. The residual gap of the iteration is (gap +
+displacement)/c - approach. The residual of the result is computed anew from the pressure that is returned.
 Verified in tests/profiles/test_curved_contact.py.
 """
 
@@ -29,8 +30,12 @@ from bem.profiles.curved_surface import CurvedSurface
 
 STEEPEST_ROW = math.radians(80)
 """Largest angle between a row's normal and the direction of approach: the component along it is 0.17."""
-_TIGHTER = 0.3
-"""Tolerance of the iteration over that of the residual, which is recomputed."""
+ITERATION_TOLERANCE = 0.3
+"""Tolerance of the iteration over that of the residual. The residual is computed anew, with the approach of the last
+pressure and not of the one before, and may be larger than what the iteration ended with."""
+SPRING_STIFFNESS = 0.05
+"""Stiffness of the springs that give the first pressure, over that of a cell loaded alone: cells around it yield, too.
+It affects cost and rounding only."""
 
 
 @dataclass(frozen=True)
@@ -39,10 +44,10 @@ class CurvedContact:
 
     Attributes
     ----------
-    contact : as of a flat surface: pressure along the normals, gap and displacement (nx, ny); `load` and `approach` are
-        those along the direction.
-    lateral_force : resultant of the pressures on the lower body to the right of the direction, in the tangent plane
-        across it [N].
+    contact : as of a flat surface: pressure, gap and displacement along the rows' normals, (nx, ny); `load` and
+        `approach` are those along the direction of approach.
+    lateral_force : resultant of the pressures on the lower body, to the right in the plane normal to that direction
+        [N].
     """
 
     contact: ContactSolution
@@ -60,7 +65,7 @@ def solve_curved_contact(
     max_iterations: int = 2000,
     start: FloatArray | None = None,
 ) -> CurvedContact:
-    """Solve the contact.
+    """Solve for the pressure between two bodies on a curved surface, frictionless and elastic.
 
     Parameters
     ----------
@@ -89,64 +94,82 @@ def solve_curved_contact(
         raise InputError(
             f"curved contact: gap of shape {np.shape(gap)}; allowed: finite numbers of shape {surface.grid.shape}"
         )
-    direction = surface.direction(angle)
-    if direction.min() < math.cos(STEEPEST_ROW):
+    cosines = surface.cosines(angle)
+    if cosines.min() < math.cos(STEEPEST_ROW):
         raise InputError(
             "curved contact: the surface turns by more than "
             f"{math.degrees(STEEPEST_ROW):.0f} degrees from the direction of the load; allowed: a narrower grid"
         )
-    scaled_gap, area = gap / direction, surface.grid.cell_area
-    force = _start(scaled_gap, load, approach, surface) if start is None else start * direction
-    if start is not None and load is not None:
-        force *= load / (area * float(force.sum()))
-    goal = _TIGHTER * tolerance * (float(np.std(gap)) or 1.0)
-    search, old_square, restart = np.zeros_like(gap), 1.0, True
-    status, iterations = Status.MAX_ITERATIONS, max_iterations
-    closing = 0.0 if approach is None else approach
-    for iteration in range(1, max_iterations + 1):
-        touching = force > 0
-        slack = surface(force / direction) / direction + scaled_gap
+    scaled_gap, area = gap / cosines, surface.grid.cell_area
+    if start is None:
+        projected_pressure = _initial_projected_pressure(scaled_gap, load, approach, surface)
+    else:
+        projected_pressure = start * cosines
         if load is not None:
-            closing = float(slack[touching].mean())
-        slack -= closing
-        overlap = float(-np.minimum(np.where(touching, 0.0, slack), 0.0).min())
-        if max(float(np.abs(slack[touching]).max(initial=0.0)), overlap) <= goal:
+            projected_pressure *= load / (area * float(projected_pressure.sum()))
+    goal = ITERATION_TOLERANCE * tolerance * (float(np.std(gap)) or 1.0)
+    search_direction, last_square, restart = np.zeros_like(gap), 1.0, True
+    status, iterations = Status.MAX_ITERATIONS, max_iterations
+    trial_approach = 0.0 if approach is None else approach
+    for iteration in range(1, max_iterations + 1):
+        touching = projected_pressure > 0
+        residual_gap = surface(projected_pressure / cosines) / cosines + scaled_gap
+        if load is not None:
+            trial_approach = float(residual_gap[touching].mean())
+        residual_gap -= trial_approach
+        penetration = float(-np.minimum(np.where(touching, 0.0, residual_gap), 0.0).min())
+        if max(float(np.abs(residual_gap[touching]).max(initial=0.0)), penetration) <= goal:
             status, iterations = Status.CONVERGED, iteration
             break
-        residual = np.where(touching, slack, 0.0)
+        residual = np.where(touching, residual_gap, 0.0)
         square = float((residual * residual).sum())
-        search = np.where(touching, residual + (0.0 if restart else square / old_square) * search, 0.0)
-        old_square = square
-        change = surface(search / direction) / direction
+        search_direction = np.where(
+            touching, residual + (0.0 if restart else square / last_square) * search_direction, 0.0
+        )
+        last_square = square
+        response = surface(search_direction / cosines) / cosines
         if load is not None and touching.any():
-            change -= float(change[touching].mean())
-        bend = float((search * change)[touching].sum())
-        step = float((residual * search).sum()) / bend if bend > 0 else 1 / surface.diagonal
-        trial = force - step * search
-        force = np.maximum(trial, 0.0)
-        joining = ~touching & (slack < 0)
-        force = np.where(joining, -step * slack, force)
-        restart = bool(joining.any() or (trial < 0).any())
+            response -= float(response[touching].mean())
+        curvature = float((search_direction * response)[touching].sum())
+        step = float((residual * search_direction).sum()) / curvature if curvature > 0 else 1 / surface.diagonal
+        trial = projected_pressure - step * search_direction
+        projected_pressure = np.maximum(trial, 0.0)
+        penetrating = ~touching & (residual_gap < 0)
+        projected_pressure = np.where(penetrating, -step * residual_gap, projected_pressure)
+        restart = bool(penetrating.any() or (trial < 0).any())
         if load is not None:
-            force *= load / (area * float(force.sum()))
+            projected_pressure *= load / (area * float(projected_pressure.sum()))
     return certified_contact(
-        gap, surface, angle, force / direction, closing, load, tolerance=tolerance, iterations=iterations, status=status
+        gap,
+        surface,
+        angle,
+        projected_pressure / cosines,
+        trial_approach,
+        load,
+        tolerance=tolerance,
+        iterations=iterations,
+        status=status,
     )
 
 
-def _start(scaled_gap: FloatArray, load: float | None, approach: float | None, surface: CurvedSurface) -> FloatArray:
-    """Return pressures to start from: as a bed of springs that carries the load, or at the approach."""
-    stiffness = 0.05 / surface.diagonal
+def _initial_projected_pressure(
+    scaled_gap: FloatArray, load: float | None, approach: float | None, surface: CurvedSurface
+) -> FloatArray:
+    """Return q = c p of a bed of independent springs that carries the load, or that is pressed to the approach.
+
+    scaled_gap : gap along the direction of approach, (nx, ny) [m].
+    """
+    stiffness = SPRING_STIFFNESS / surface.diagonal
     if approach is not None:
         return stiffness * np.maximum(approach - scaled_gap, 0.0)
     assert load is not None
-    wanted = load / (surface.grid.cell_area * stiffness)
-    values = np.sort(scaled_gap.ravel())
-    # sum of (level - gap) over the lowest n gaps
-    below = np.arange(1, len(values) + 1) * values - np.cumsum(values)
-    count = max(int(np.searchsorted(below, wanted)), 1)
-    level = (wanted + float(values[:count].sum())) / count
-    return stiffness * np.maximum(level - scaled_gap, 0.0)
+    compression_sum = load / (surface.grid.cell_area * stiffness)
+    gaps = np.sort(scaled_gap.ravel())
+    # sums of (gap of cell n - gap) over the lower n gaps: compressions where the bed reaches cell n
+    sums_at_gaps = np.arange(1, len(gaps) + 1) * gaps - np.cumsum(gaps)
+    pressed = max(int(np.searchsorted(sums_at_gaps, compression_sum)), 1)
+    bed_approach = (compression_sum + float(gaps[:pressed].sum())) / pressed
+    return stiffness * np.maximum(bed_approach - scaled_gap, 0.0)
 
 
 def certified_contact(
@@ -167,25 +190,24 @@ def certified_contact(
     ----------
     gap, surface, angle, tolerance : as for `solve_curved_contact`.
     pressure : (nx, ny) [Pa].
-    approach : [m].
-    load : prescribed [N], or None.
+    approach : of the iteration [m]; under a prescribed load it is computed anew.
+    load : prescribed [N], or None where the approach is.
     iterations, status : of the iteration.
     """
-    direction, prescribed, closing = surface.direction(angle), load, approach
-    grid = surface.grid
+    grid, cosines, prescribed_load = surface.grid, surface.cosines(angle), load
     displacement = surface(pressure)
     touching = pressure > 0
-    if prescribed is not None:  # the last approach of the iteration is of the pressure before its last step
-        closing = float(((gap + displacement) / direction)[touching].mean())
-    deformed = gap + displacement - closing * direction
+    if prescribed_load is not None:  # the last approach of the iteration is of the pressure before its last step
+        approach = float(((gap + displacement) / cosines)[touching].mean())
+    deformed = gap + displacement - approach * cosines
     violation = max(
         float(np.abs(deformed[touching]).max(initial=0.0)),
         float(-np.minimum(deformed[~touching], 0.0).min(initial=0.0)),
     )
-    load = float((pressure * direction).sum()) * grid.cell_area
+    load = float((pressure * cosines).sum()) * grid.cell_area
     residual = violation / (float(np.std(gap)) or 1.0)
-    if prescribed is not None:
-        residual = max(residual, abs(load / prescribed - 1))
+    if prescribed_load is not None:
+        residual = max(residual, abs(load / prescribed_load - 1))
     if residual <= tolerance:
         status = Status.CONVERGED
     elif status is Status.CONVERGED:
@@ -198,7 +220,7 @@ def certified_contact(
         pressure=pressure,
         displacement=displacement,
         gap=deformed,
-        approach=closing,
+        approach=approach,
         load=load,
         contact_area=region.area,
         plastic_area=0.0,

@@ -84,10 +84,10 @@ class CurvedSurface:
         assert materials[0] is not None
         return contact_modulus(materials[0], materials[1] if len(materials) > 1 else None)
 
-    def direction(self, angle: float) -> FloatArray:
-        """Return the components (ny,) of the rows' normals along a normal of that angle [rad]."""
-        along: FloatArray = np.cos(self.angles - angle)
-        return along
+    def cosines(self, angle: float) -> FloatArray:
+        """Return the cosines (ny,) between the rows' normals and the normal of a tangent at an angle [rad]."""
+        cosines: FloatArray = np.cos(self.angles - angle)
+        return cosines
 
     @cached_property
     def _spectra(self) -> FloatArray:

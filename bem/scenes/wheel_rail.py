@@ -101,7 +101,7 @@ def tell_profiles(scene: Any, grid: Grid, contact: ContactSolution, context: Con
     """Note a second contact, a contact over which the normals turn, and one that ends with a profile."""
     if scene.shape.kind != "profiles" or not contact.pressure.any():
         return
-    from bem.profiles.gap import covered
+    from bem.profiles.gap import rows_meet_both
 
     placed: WheelOnRail = scene.shape.placed()
     first = placed.contact_points[0]
@@ -110,7 +110,7 @@ def tell_profiles(scene: Any, grid: Grid, contact: ContactSolution, context: Con
     tell(context, {note.values["reason"]: note for note in reversed(seconds) if note is not None}.values())
     columns = np.flatnonzero((contact.pressure > 0).any(axis=0))
     low, high = max(int(columns[0]) - 1, 0), min(int(columns[-1]) + 1, grid.shape[1] - 1)
-    if not covered(placed, first, _rows(scene, placed, grid.y[[low, high]])).all():
+    if not rows_meet_both(placed, first, _rows(scene, placed, grid.y[[low, high]])).all():
         tell(context, [PROFILE_ENDS()])
         return
     edges = grid.y[[columns[0], columns[-1]]]

@@ -189,5 +189,5 @@ def test_few_iterations_end_as_not_converged():
     assert found.contact.residual > 1e-8
     # the approach is that of the returned pressure: the deformed gap of its cells is none in the mean
     touching = found.contact.pressure > 0
-    opening = (gap + surface(found.contact.pressure)) / surface.direction(0.0)
+    opening = (gap + surface(found.contact.pressure)) / surface.cosines(0.0)
     assert found.contact.approach == pytest.approx(float(opening[touching].mean()), rel=1e-9, abs=0)
