@@ -401,7 +401,8 @@ def show_remarks(notes: Sequence[str]) -> None:
 
 def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     """The figures of a run."""
-    from bem.plots.report import status_words, summary_rows
+    from bem.notes.accuracy import NO_ERROR_BAR
+    from bem.plots.report import NO_BAR, status_words, summary_rows
     from bem.plots.tables import input_share_tables, is_list
 
     known = [name for name in headline if summary.get(name) is not None]
@@ -412,6 +413,10 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
         rows.append(("remarks", f"{remarks}, in the report and in summary.json"))
     rows.append(("time", f"{summary['wall_time_s']:.1f} s"))
     table(("figure", "value"), rows, title=f"{summary['scene']} ({summary['kind']})")
+    if any(value.endswith(NO_BAR) for _, value in rows):
+        for note in of_summary(summary):
+            if note["code"] == NO_ERROR_BAR.code:
+                print_text(note["text"])
     print_lists(summary, known)
     if summary.get("combined_Sdq") is not None and any(f"{name}_error" in summary for name in known):
         print_text("± is the numerical error; how figures scatter from place to place of the surface is not in it.")

@@ -82,8 +82,8 @@ NO_ERROR_BAR = define(
         ),
         NoBar.ONE_PLACE_AMONG_BUMPS: "They are values at one place among bumps a few cells long.",
         NoBar.STRESS_OF_CAPPED: (
-            "The highest stress lies less than a cell below the surface of a capped contact; it keeps growing on finer "
-            "grids."
+            "The highest stress lies less than a cell below the surface of a capped contact; it follows the cells and "
+            "may keep growing on finer grids."
         ),
         NoBar.STRESS_OF_SHARP: (
             "The highest stress lies less than a cell below sharp edges or ridges; it keeps growing on finer grids."

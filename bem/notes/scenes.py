@@ -70,7 +70,7 @@ MAP_SYNTHETIC = define(
 
 # What was done to a measured surface
 _FILLED = "Points of the map were filled smoothly from their neighbours."
-_PERIODIC = "The measured surface was made periodic."
+_SEAMS = "Making the map periodic changed its heights by {share:%} of Sq."
 MAP_ALTERED = define(
     "map-altered",
     INFO,
@@ -97,20 +97,20 @@ MAP_ALTERED = define(
         "mirror": Reason(
             "It is mirrored, and symmetric about its seams: the patch holds the map {copies} times, and load, area and "
             "number of contact spots are those of all of them.",
-            headline=_PERIODIC,
+            headline="The measured surface was made periodic.",
         ),
         "seams": Reason(
-            "The step where its ends meet along {along} is spread out (Moisan 2011), which changes the heights by "
-            "{change:si m} rms ({share:%} of Sq).",
+            "The step where its ends meet along {along} is spread out (Moisan 2011): {change:si m} rms; up to "
+            "{limit:%} of Sq the map counts as the same surface.",
             'Set mirror = "both" in its surface to keep the heights.',
-            headline=_PERIODIC,
+            headline=_SEAMS,
         ),
         "seams-large": Reason(
             "The step where its ends meet is spread out (Moisan 2011): {change:si m} rms, {share:%} of its Sq, which "
             "is then {height:si m}.",
             "{action}",
             CAUTION,
-            headline="Making the map periodic changed its heights by {share:%} of Sq.",
+            headline=_SEAMS,
         ),
         "scaled": Reason(
             "They are multiplied by {factor:.2g} to have Sq {height:si m}, and slopes with them.",

@@ -84,6 +84,10 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
     return path
 
 
+NO_BAR = "(no error bar)"
+"""Words behind a figure whose error is not known; a remark of the run says why."""
+
+
 def status_words(summary: Mapping[str, Any]) -> str:
     """Return the status of a run; of converged wear cycles that have not settled with both facts in one line."""
     status = str(summary["status"])
@@ -142,7 +146,7 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
         return text, f"{shown} {HARDNESS}"
     if not isinstance(error, float) or not isinstance(value, int | float) or isinstance(value, bool):
         none = f"{name}_error" in summary and error is None and value is not None
-        return text, f"{shown} (no error bar)" if none else shown
+        return text, f"{shown} {NO_BAR}" if none else shown
     if error > abs(value):
         return text, _in_unit_of_error(name, value, error)
     number, *unit = shown.split(" ")

@@ -183,7 +183,7 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
         factor = float(scaled.heights.std()) / float(found.heights.std() or math.inf)
         change = factor * float(found.metadata["seams_closed"])
         share = change / (float(scaled.heights.std()) or math.inf)
-        note(MAP_ALTERED(name, along=along, change=change, share=share, reason="seams"))
+        note(MAP_ALTERED(name, along=along, change=change, share=share, limit=MOST_SEAM_CHANGE, reason="seams"))
     found = scaled
     return np.ascontiguousarray(found.heights - found.heights.mean())
 

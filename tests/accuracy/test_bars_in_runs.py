@@ -9,6 +9,7 @@ from bem.campaigns.collect import _figures, outcome_of
 from bem.cli._terminal import print_numbers
 from bem.kinds.running_in.record import RunningInRecord
 from bem.kinds.wear.record import WearRecord
+from bem.notes.accuracy import NoBar, no_error_bar
 from bem.plots.report import with_error
 from bem.plots.tables import origin_table
 from bem.runs import run_scene
@@ -142,6 +143,15 @@ def test_lists_on_the_terminal_have_their_errors(capsys):
     shown = capsys.readouterr().out
     assert "0.1 ± 0.01" in shown
     assert "0.2 ± 0.03" in shown
+
+
+def test_a_figure_without_an_error_bar_has_the_reason_below_the_table(capsys):
+    """The first example of the README had "4.251 GPa (no error bar)", and the reason in the report alone."""
+    why = no_error_bar(["max_von_mises"], NoBar.STRESS_OF_CAPPED).as_dict()
+    known = {"status": "converged", "wall_time_s": 1.0, "scene": "s", "kind": "contact", "notes": [why]}
+    for error, count in ((None, 1), (1e7, 0)):
+        print_numbers(known | {"max_von_mises_Pa": 4e9, "max_von_mises_Pa_error": error}, ["max_von_mises_Pa"])
+        assert " ".join(capsys.readouterr().out.split()).count(why["text"]) == count
 
 
 WEAR = {
