@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from bem.adhesion.figures import mean_contact_traction
 from bem.adhesion.zone import FEWEST_CELLS, cells_in_zone, zone_notes
 from bem.grid import FloatArray, Grid
+from bem.kinds.contact.response import Response
 from bem.kinds.contact.scene import ContactScene
 from bem.kinds.contact.solve import adhesion_tolerance
 from bem.notes import Note
@@ -24,12 +25,10 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class AdhesiveResponse:
-    """Contact with adhesion along its path; a `Response`."""
+class AdhesiveResponse(Response):
+    """Contact with adhesion along its path."""
 
     path: AdhesiveHistory
-
-    differentiable = False
 
     @property
     def contact(self) -> ContactSolution:

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from bem.grid import FloatArray, Grid
+from bem.kinds.contact.response import Response
 from bem.kinds.contact.scene import ContactScene
-from bem.kinds.contact.solve import standing_off
-from bem.notes import Note
 from bem.scenes import build
 from bem.scenes.context import Context
 
@@ -41,38 +40,19 @@ def solve_on_curved_rail(scene: ContactScene, grid: Grid, undeformed: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
-class CurvedRailResponse:
-    """Elastic contact on the curved surface; a `Response`."""
+class CurvedRailResponse(Response):
+    """Elastic contact on the curved surface."""
 
     solved: CurvedContact
-
-    differentiable = False
 
     @property
     def contact(self) -> ContactSolution:
         """See `Response`."""
         return self.solved.contact
 
-    @property
-    def traction(self) -> FloatArray:
-        """See `Response`."""
-        return self.contact.pressure
-
-    def notes(self, scene: ContactScene, grid: Grid) -> tuple[Note, ...]:
-        """See `Response`."""
-        return ()
-
-    def notes_apart(self) -> tuple[Note, ...]:
-        """See `Response`."""
-        return standing_off(self.contact)
-
     def figures(self, scene: ContactScene) -> dict[str, Any]:
         """See `Response`."""
         return {"lateral_force": self.solved.lateral_force}
-
-    def arrays(self, scene: ContactScene) -> dict[str, Any]:
-        """See `Response`."""
-        return {}
 
     def bars(self, scene: ContactScene, case: ContactCase, below: StressSummary | None, context: Context) -> ErrorBars:
         """See `Response`; of the lateral force it is the difference to the grid of twice the cell."""

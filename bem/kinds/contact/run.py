@@ -11,8 +11,8 @@ import numpy as np
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.kinds.contact.errors import bars_of
+from bem.kinds.contact.laws import solve_response
 from bem.kinds.contact.record import ContactRecord
-from bem.kinds.contact.response import solve_response
 from bem.kinds.contact.scene import ContactScene
 from bem.materials import Body, softer_hardness
 from bem.notes import Level, Note, has_code

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bem.grid import FloatArray, Grid
+from bem.kinds.contact.response import Response
 from bem.kinds.contact.scene import ContactScene
-from bem.kinds.contact.solve import standing_off
 from bem.materials import Material, relaxation_span
 from bem.notes import Note
 from bem.notes.contact import HYSTERESIS_UNBALANCED, RELAXATION_EXTRAPOLATED
@@ -57,12 +57,10 @@ def solve_relaxing(scene: ContactScene, grid: Grid, undeformed: FloatArray, cont
 
 
 @dataclass(frozen=True, eq=False)
-class RelaxedResponse:
-    """Contact of bodies that relax, along a path in time or in steady motion; a `Response`."""
+class RelaxedResponse(Response):
+    """Contact of bodies that relax, along a path in time or in steady motion."""
 
     solved: Relaxed
-
-    differentiable = False
 
     @property
     def contact(self) -> ContactSolution:
@@ -72,18 +70,9 @@ class RelaxedResponse:
         contact = self.solved.contact if isinstance(self.solved, SteadySolution) else self.solved.last
         return replace(contact, convolutions=self.solved.convolutions, status=self.solved.status)
 
-    @property
-    def traction(self) -> FloatArray:
-        """See `Response`."""
-        return self.contact.pressure
-
     def notes(self, scene: ContactScene, grid: Grid) -> tuple[Note, ...]:
         """See `Response`."""
         return relaxed_notes(scene, grid, self.solved)
-
-    def notes_apart(self) -> tuple[Note, ...]:
-        """See `Response`."""
-        return standing_off(self.contact)
 
     def figures(self, scene: ContactScene) -> dict[str, float]:
         """See `Response`."""
