@@ -304,6 +304,17 @@ def test_the_way_of_a_gear_has_its_loads_pressures_and_sliding_speed():
     assert marks == pytest.approx([0.0])  # pure rolling
 
 
+def test_surfaces_of_gears_are_those_of_pinion_and_wheel():
+    """The path of contact of a gear pair, whose lower body is the pinion, had lower and upper surfaces."""
+    for marks, names in (({}, {"lower surface", "upper surface"}), ({"A": -4e-3, "B": None}, {"pinion", "wheel"})):
+        run = traction_run(3)
+        run.scene["along"] = {"marks": marks}
+        figure = Figure()
+        all_figures()["film-temperatures"].draw(run, figure)
+        shown = {text.get_text().split(" (")[0] for text in figure.axes[0].get_legend().get_texts()}
+        assert names <= shown
+
+
 @pytest.mark.parametrize(
     ("places", "letters"),
     [

@@ -70,7 +70,9 @@ class AlongScene(Table):
         "Surface speed of the upper body over the contact at each position.", "basic", example=["4 m/s", "3 m/s"]
     )
     marks: MarksScene | None = key(
-        "Positions of the characteristic points A to E, marked in figures.", "advanced", default=None
+        "Positions of the points A to E of a gear pair, whose lower body is the pinion; marked in figures.",
+        "advanced",
+        default=None,
     )
 
     @model_validator(mode="before")

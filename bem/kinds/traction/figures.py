@@ -42,6 +42,17 @@ def _curve(run: Any, figure: Figure) -> None:
         panels[0].legend()
 
 
+_GEARS = {"lower": "pinion", "upper": "wheel"}
+"""Bodies of a gear pair, whose path of contact has marks."""
+
+
+def _surface(run: Any, body: str) -> str:
+    """Return the name of the surface of a body, "lower" or "upper": of gears that of the pinion or the wheel."""
+    marks = (run.scene.get("along") or {}).get("marks") or {}
+    gears = any(place is not None for place in marks.values())
+    return f"{_GEARS[body]} ({body} surface)" if gears else f"{body} surface"
+
+
 def _known(run: Any, name: str) -> list[tuple[str, Array]]:
     """Label and values of the cases whose temperatures were found."""
     return [(case, values) for case, values in grouped(run, name) if np.isfinite(values).any()]
@@ -59,8 +70,8 @@ def _temperatures(run: Any, figure: Figure) -> None:
         axes.plot(x, oil[0] - ZERO_CELSIUS, color=colour, label=f"oil, {case}" if case else "oil")
         for name, dash in (("lower", "--"), ("upper", ":")):
             axes.plot(x, surfaces[name][case][0] - ZERO_CELSIUS, color=colour, linestyle=dash)
-    axes.plot([], [], "--", color=BLACK, label="lower surface")
-    axes.plot([], [], ":", color=BLACK, label="upper surface")
+    axes.plot([], [], "--", color=BLACK, label=_surface(run, "lower"))
+    axes.plot([], [], ":", color=BLACK, label=_surface(run, "upper"))
     axes.set_xlabel("x over the Hertz half-width")
     axes.set_ylabel("temperature (°C)")
     axes.legend()
@@ -89,7 +100,7 @@ def _field(run: Any, figure: Figure) -> None:
         upper.set_title(f"position {case}" if "position" in axes_of(run.dataset) else case)
     for name, colour in (("lower", BLUE), ("upper", VERMILION)):
         row = dict(grouped(run, f"{name}_surface_temperature"))[case][0]
-        lower.plot(x, row - ZERO_CELSIUS, color=colour, label=f"{name} surface")
+        lower.plot(x, row - ZERO_CELSIUS, color=colour, label=_surface(run, name))
     lower.plot(x, np.max(field[0], axis=1) - ZERO_CELSIUS, color=BLACK, label="hottest oil")
     lower.set_xlabel("x over the Hertz half-width")
     lower.set_ylabel("temperature (°C)")
@@ -189,8 +200,11 @@ def _along(run: Any, figure: Figure) -> None:
     if "lambda_ratio" in data.variables:
         _lambda_beside(film, _row(data, "lambda_ratio") / _row(data, "minimum_thickness"))
     if hot:
-        for name, words, colour in _SURFACES:
-            others[0].plot(place, _row(data, name) - ZERO_CELSIUS, "o-", markersize=3, color=colour, label=words)
+        for name, colour in (("film", BLACK), ("lower", BLUE), ("upper", VERMILION)):
+            words = "oil, mean in the contact" if name == "film" else f"{_surface(run, name)}, highest"
+            others[0].plot(
+                place, _row(data, f"{name}_temperature") - ZERO_CELSIUS, "o-", markersize=3, color=colour, label=words
+            )
         others[0].set_ylabel("temperature\n(°C)")
         others[0].legend()
     pressed.set_xlabel("position along the path (mm)")
@@ -252,13 +266,6 @@ def _zeros(place: Any, values: Any) -> list[float]:
     at = np.flatnonzero(values[:-1] * values[1:] < 0)
     between = [place[i] - values[i] * (place[i + 1] - place[i]) / (values[i + 1] - values[i]) for i in at]
     return [float(zero) for zero in (*between, *place[values == 0])]
-
-
-_SURFACES = (
-    ("film_temperature", "oil, mean in the contact", BLACK),
-    ("lower_temperature", "lower surface, highest", BLUE),
-    ("upper_temperature", "upper surface, highest", VERMILION),
-)
 
 
 def _row(data: Any, name: str) -> Any:
@@ -335,9 +342,9 @@ FIGURES = (
     ),
     FigureKind(
         "along-the-way",
-        "Film, friction, its power, temperatures, sliding speed (lower less upper surface), Hertz pressure "
-        "and load (dashed, right) over the rows of a way, such as a line of action. Of a gear pair A is the start of "
-        "contact, C the pitch point, E the end; between B and D one pair of teeth carries the load.",
+        "Film, friction, its power, temperatures, sliding speed (lower less upper surface; pinion less wheel), "
+        "Hertz pressure and load (dashed, right) over the rows of a way, such as a line of action. Of a gear pair A is "
+        "the start of contact, C the pitch point, E the end; between B and D one pair of teeth carries the load.",
         ("traction_coefficient", "friction_power"),
         _along,
         size=(5.5, 10.5),
