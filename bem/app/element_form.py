@@ -171,19 +171,20 @@ def scene_of_form(name: str, typed: Mapping[str, str], kind: str = "traction") -
     """Return a scene of a filled form.
 
     kind : "traction", the film along the path of contact or of the most loaded contact, or another kind of
-        `bem.elements.element.KINDS` of the most loaded contact.
+        `bem.elements.element.KINDS` of the contact that `Element.contact_for` gives.
 
     Raises
     ------
     InputError : one message per mistake.
     """
     element = balance_heat(load_element(table_of(name, typed)))
-    along = kind == "traction" and element.found.along_unit == "m"
-    return table_text(element.path_scene() if along else most_loaded_scene(element, kind))
+    if kind != "traction":
+        return table_text(element.scene(element.contact_for(kind), kind))
+    return table_text(element.path_scene() if element.found.along_unit == "m" else most_loaded_scene(element))
 
 
-def most_loaded_scene(element: Element, kind: str = "traction") -> dict[str, Any]:
-    """Return the scene of the contact with the highest pressure, of those that a steady film can have.
+def most_loaded_scene(element: Element) -> dict[str, Any]:
+    """Return the film of the contact with the highest pressure, of those that a steady film can have.
 
     Raises
     ------
@@ -192,7 +193,7 @@ def most_loaded_scene(element: Element, kind: str = "traction") -> dict[str, Any
     mistakes: list[InputError] = []
     for contact in sorted(element.found.contacts, key=lambda one: -one.hertz(element.modulus).maximum_pressure):
         try:
-            return element.scene(contact, kind)
+            return element.scene(contact, "traction")
         except InputError as error:
             mistakes.append(error)
     raise mistakes[-1] if mistakes else InputError(f"{element.model.name}: no contact has a steady film")

@@ -105,8 +105,9 @@ def element(
     found = balance_heat(load_element(file))
     whole = at == "path"
     chosen = found.critical() if whole or not at else _chosen(found, at)
-    if not at and scene is not None and kind in (*MIXED, LIFE) and found.model.oil is not None:
-        chosen = found.thinnest_steady()
+    if not at and scene is not None:
+        chosen = found.contact_for(kind)
+    if not at and scene is not None and chosen is not found.critical():
         print_text(f"Scene of the contact with the thinnest film, {place_words(found, chosen)}.")
         if chosen.hertz(found.modulus).maximum_pressure < found.critical().hertz(found.modulus).maximum_pressure:
             print_text(f"The highest pressure is at {place_words(found, found.critical())}: --at worst.")

@@ -142,6 +142,18 @@ class Element:
         every = (self.worst(), *self.found.marked.values())
         return max(every, key=lambda one: one.hertz(self.modulus).maximum_pressure)
 
+    def contact_for(self, kind: str) -> ElementContact:
+        """Return the contact of which a scene of a kind is made where no place is chosen.
+
+        Mixed lubrication and wear take the one of the thinnest steady film, other kinds that of highest pressure.
+
+        Raises
+        ------
+        InputError : nowhere do the bodies touch.
+        """
+        mixed = kind in (*MIXED, LIFE) and self.model.oil is not None
+        return self.thinnest_steady() if mixed else self.critical()
+
     def at_bulk(self, temperature: float, *, estimated: bool = False) -> Element:
         """Return the element with bodies of a temperature [K], in place of its bulk temperature or heat balance."""
         table = {key: value for key, value in self.table.items() if key not in ("bulk_temperature", "heat_balance")}
