@@ -895,6 +895,13 @@ class SceneModel(Table):
             raise problem(f"{name}.material {special}", allowed)
         return self
 
+    def cited_methods(self) -> Iterator[Mapping[str, str]]:
+        """Yield the sources of methods that this scene uses and others of its kind do not: keys and methods.
+
+        The keys are of `bem.references`; `bem.scenes.sources` has the tables.
+        """
+        yield from ()
+
     def with_source(self, table: dict[str, Any]) -> Self:
         """The scene with the table that it was made from."""
         made = self.model_copy()

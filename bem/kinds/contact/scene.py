@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
 from bem.adhesion.laws import AdhesionLaw
-from bem.scenes import build
-from bem.scenes.common import Force, SmoothSurface, problem, refuse_relaxation, relaxing_bodies, special_bodies
+from bem.scenes import build, sources
+from bem.scenes.common import (
+    Force,
+    GeneratedSurface,
+    MeasuredSurface,
+    SmoothSurface,
+    problem,
+    refuse_relaxation,
+    relaxing_bodies,
+    special_bodies,
+)
 from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
 from bem.scenes.tables.pressing import ContactControl, ContactOutputs, StressedScene
@@ -140,6 +150,26 @@ class ContactScene(StressedScene):
     curved_surfaces: ClassVar[bool] = True
     contact: AdhesiveControl = key("Control of the contact: load, pressure, approach or gap.", "basic")
     outputs: ContactOutputs = key("Results besides pressure, gap and displacement.", "basic", default=ContactOutputs())
+
+    def cited_methods(self) -> Iterator[Mapping[str, str]]:
+        """See `SceneModel`."""
+        yield from super().cited_methods()
+        if any(isinstance(body.surface, GeneratedSurface | MeasuredSurface) for body in (self.lower, self.upper)):
+            yield sources.ROUGH_CONTACT
+            if all(self.grid.periodic):
+                yield sources.AREA_THEORIES
+        if self.contact.adhesion is not None:
+            yield sources.ADHESIVE
+            if self.shape.kind == "sphere":
+                yield sources.ADHESIVE_SPHERE
+        if self.speeds is not None:
+            yield sources.RELAXING_IN_MOTION
+        elif self.contact.times:
+            yield sources.RELAXING_IN_TIME
+        if self.contact.friction and build.traction_couples(
+            self.lower.build(), self.upper.build(), self.contact.friction
+        ):
+            yield sources.COUPLING
 
     @model_validator(mode="after")
     def _curved_rail_pressed_alone(self) -> ContactScene:

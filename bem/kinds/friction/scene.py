@@ -5,13 +5,14 @@ A case is one curve: one load, one surface, one contact model; each speed starts
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from typing import Literal
 
 from pydantic import model_validator
 
 from bem.kinds.friction.patch import with_patch
 from bem.kinds.friction.waves import FrictionFilmScene, check_flattening
-from bem.scenes import build
+from bem.scenes import build, sources
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import LineGridScene, OutputsScene, Repetitions
 from bem.scenes.keys import key
@@ -41,6 +42,12 @@ class FrictionScene(CurveScene):
     repetitions: Repetitions = key(
         "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1
     )
+
+    def cited_methods(self) -> Iterator[Mapping[str, str]]:
+        """See `SceneModel`."""
+        yield from super().cited_methods()
+        if self.by_waves:
+            yield sources.WAVES
 
     @model_validator(mode="after")
     def _flattened(self) -> FrictionScene:

@@ -6,9 +6,10 @@ run-in friction the mean of the last ones.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from typing import Literal
 
-from bem.scenes import build, pieces, wearing
+from bem.scenes import build, pieces, sources, wearing
 from bem.scenes.axes import Axis, changed
 from bem.scenes.common import PositivePressure, Repetitions
 from bem.scenes.keys import key
@@ -17,6 +18,7 @@ from bem.scenes.records import (
 )
 from bem.scenes.tables.sharing import OneLoadScene, RunningInCycles, WearingSharing
 from bem.scenes.tables.wear_model import WearScenePart
+from bem.wear.criterion import StressCriterion
 
 
 class RunningInScene(OneLoadScene):
@@ -36,6 +38,12 @@ class RunningInScene(OneLoadScene):
     repetitions: Repetitions = key(
         "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1
     )
+
+    def cited_methods(self) -> Iterator[Mapping[str, str]]:
+        """See `SceneModel`."""
+        yield from super().cited_methods()
+        if isinstance(self.wear.finds_particles, StressCriterion):
+            yield sources.STRESSES
 
 
 def resolve(scene: RunningInScene) -> RunningInScene:

@@ -6,16 +6,18 @@ A case is one life: one speed, one pair of surfaces.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from typing import Literal
 
 from pydantic import model_validator
 
 from bem.kinds.running_in_life.tables import LifeCycles, LifeFatigue, LifeFilm, LifeParticles, LifeWear
-from bem.scenes import build
+from bem.scenes import build, sources
 from bem.scenes.axes import Axis
 from bem.scenes.common import Repetitions, problem
 from bem.scenes.keys import key
 from bem.scenes.tables.sharing import OneLoadScene, RunningInSharing
+from bem.wear.criterion import StressCriterion
 
 
 class RunningInLifeScene(OneLoadScene):
@@ -39,6 +41,13 @@ class RunningInLifeScene(OneLoadScene):
     repetitions: Repetitions = key(
         "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1
     )
+
+    def cited_methods(self) -> Iterator[Mapping[str, str]]:
+        """See `SceneModel`."""
+        yield from super().cited_methods()
+        particles = self.particles
+        if self.fatigue is not None or (particles is not None and isinstance(particles.criterion, StressCriterion)):
+            yield sources.STRESSES
 
     @model_validator(mode="after")
     def _cylinder_and_film(self) -> RunningInLifeScene:

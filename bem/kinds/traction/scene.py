@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, Literal
 
 from pydantic import model_validator
 
 from bem.kinds.traction.along import AlongScene, with_first_row
 from bem.kinds.traction.rolling import FilmPointsScene, RollerScene, RollingScene
+from bem.scenes import sources
 from bem.scenes.axes import Axis
 from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel, check_smooth, problem
 from bem.scenes.keys import key
@@ -78,6 +79,12 @@ class TractionScene(SceneModel):
         check_supply_of_heat(self.thermal, self.supply)
         check_film_heat(self.oil, self.lower, self.upper)
         return self
+
+    def cited_methods(self) -> Iterator[Mapping[str, str]]:
+        """See `SceneModel`."""
+        yield from super().cited_methods()
+        if self.thermal != "off":
+            yield from (sources.HEAT[self.thermal], sources.MOVING_HEAT)
 
     @property
     def by_waves(self) -> bool:

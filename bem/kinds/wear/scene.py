@@ -5,6 +5,7 @@ A case is one load, one variant and one pair of surfaces; sizes are means over t
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -12,12 +13,13 @@ from pydantic import model_validator
 
 from bem.grid import Grid
 from bem.kinds.wear.tables import CyclesScene, CylinderScene, DomainScene, WearVariantScene
-from bem.scenes import build, pieces, wearing
+from bem.scenes import build, pieces, sources, wearing
 from bem.scenes.axes import Axis, changed, listed, variants
 from bem.scenes.common import BodyScene, Repetitions, SceneModel, problem
 from bem.scenes.keys import key
 from bem.scenes.records import Figure
 from bem.scenes.tables.wear_model import WearScenePart
+from bem.wear.criterion import StressCriterion
 
 if TYPE_CHECKING:
     from bem.scenes.checks.hertz import SmoothContact
@@ -53,6 +55,12 @@ class WearScene(SceneModel):
     repetitions: Repetitions = key(
         "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1
     )
+
+    def cited_methods(self) -> Iterator[Mapping[str, str]]:
+        """See `SceneModel`."""
+        yield from super().cited_methods()
+        if isinstance(self.wear.finds_particles, StressCriterion):
+            yield sources.STRESSES
 
     @model_validator(mode="after")
     def _flat_needs_lengths(self) -> WearScene:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
 from pydantic import Field, model_validator
 
 from bem.errors import InputError
+from bem.scenes import sources
 from bem.scenes.axes import with_keys
 from bem.scenes.common import PositiveLength, PositivePressure, Table, Variant, problem
 from bem.scenes.keys import key
@@ -126,6 +128,13 @@ class HotMixedScene(MixedScene):
         check_supply_of_heat(self.thermal, self.supply)
         return self
 
+    def cited_methods(self) -> Iterator[Mapping[str, str]]:
+        """See `SceneModel`."""
+        yield from super().cited_methods()
+        if self.thermal != "off":
+            yield from (sources.HEAT[self.thermal], sources.MOVING_HEAT, sources.FLASH)
+        yield sources.LINE_FILM if self.contact.point_radii is None else sources.POINT_FILM
+
     def setup(self, **accuracy: Any) -> MixedSetup:
         """As `MixedScene.setup`, with the heat."""
         return super().setup(thermal=self.thermal, **accuracy)
@@ -159,6 +168,14 @@ class CurveScene(HotMixedScene):
     )
 
     cell_may_repeat = True
+
+    def cited_methods(self) -> Iterator[Mapping[str, str]]:
+        """See `SceneModel`."""
+        yield from super().cited_methods()
+        if any(model.startswith("uncoupled") for model in self.sharing.models):
+            yield sources.UNCOUPLED
+        if self.sharing.flow_factors != "off":
+            yield sources.FLOW_FACTORS
 
     @model_validator(mode="after")
     def _point_film(self) -> Self:

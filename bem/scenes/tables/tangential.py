@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Annotated, Self
 
@@ -9,6 +10,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from bem.grid import FloatArray
+from bem.scenes import sources
 from bem.scenes.common import Force, Table, exactly_one, problem
 from bem.scenes.keys import key
 from bem.scenes.laws import LawOrNumber
@@ -282,6 +284,12 @@ class RolledScene(StickingScene):
         "Transient rolling from rest, in place of the steady state.", "advanced", default=None, reason="steady rolling"
     )
     outputs: StickOutputs = key("Results besides pressure, traction and slip.", "basic", default=StickOutputs())
+
+    def cited_methods(self) -> Iterator[Mapping[str, str]]:
+        """See `SceneModel`."""
+        yield from super().cited_methods()
+        if self.history is not None:
+            yield sources.FROM_REST
 
     @model_validator(mode="after")
     def _spin_of_profiles(self) -> Self:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
@@ -14,7 +15,7 @@ from bem.grid import FloatArray, Grid
 from bem.materials import softer_hardness
 from bem.physical_constants import ZERO_CELSIUS
 from bem.reference_solutions.hertz import smooth_load, sphere_contact
-from bem.scenes import build
+from bem.scenes import build, sources
 from bem.scenes.axes import Model, changed, with_keys
 from bem.scenes.common import (
     BodyScene,
@@ -224,6 +225,14 @@ class RubbedScene(SceneModel):
         reason="boundary lubrication: the asperities carry the whole load",
     )
     oil_cells: FilmCells = key("Number of cells of the oil film along each axis.", "expert", default=64)
+
+    def cited_methods(self) -> Iterator[Mapping[str, str]]:
+        """See `SceneModel`."""
+        yield from super().cited_methods()
+        if self.rubbing.speeds is not None:  # the film is as warm as the spots in contact
+            yield from (sources.MOVING_HEAT, sources.FLASH)
+        if self.oil is not None:
+            yield from (sources.SHARED, sources.POINT_FILM)
 
     @model_validator(mode="after")
     def _pressures_of_a_shape(self) -> Self:
