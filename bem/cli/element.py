@@ -196,6 +196,8 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
     unnamed = [f"{read_element(file)['name']}-{number}" for number in range(1, len(cases) + 1)]
     named = found["case"] != unnamed
     hidden = {*([] if named else ["case"]), *([*_BY_FORMULA, "thinnest_by_formula"] if runs else [])}
+    if all(isinstance(one.model, PlainBushModel) for one in cases):  # one contact, under the radial load
+        hidden |= {"worst", "thinnest", *(["load [N]"] if "radial_load" in changed else [])}
     shown = [name for name in found if name not in hidden]
     lines = [
         tuple(one if isinstance(one, str) else _spelled(name, one) for name, one in zip(shown, row, strict=True))
@@ -300,7 +302,7 @@ def _show(found: Element, chosen: ElementContact, runs: Sequence[Running]) -> No
     head = ["", "where", *heads]
     title = f"{found.model.name}: {found.model.element}"
     table(head, rows, title=title, right=range(2, len(head)), leading=2)
-    if "friction" in shown or any(one.slide_roll_ratio < 0 for one in contacts):
+    if any(one.slide_roll_ratio < 0 for one in contacts):
         print_text(
             "Slide-to-roll ratio and friction coefficient are those of body 1: negative where its surface is the "
             "slower one, as before the pitch point of a driving pinion. Friction power is positive everywhere."

@@ -20,7 +20,7 @@ from bem.elements.figure import element_figure
 from bem.elements.plain_bush import WORN_IN, crescent_distance, sliding_to_depth
 from bem.elements.running import run_all
 from bem.notes import Level
-from bem.notes.checks import CAP_NOT_OF_SOFTER, CYLINDER_NARROW, SLOPES_LARGE
+from bem.notes.checks import CAP_NOT_OF_SOFTER, CYLINDER_NARROW, HARDNESS_UNLIKELY, SLOPES_LARGE
 from bem.notes.elements import (
     BUSH_CONFORMS,
     BUSH_FLOATS,
@@ -667,8 +667,13 @@ def test_the_command(tmp_path):
     cases = bem("element", "pump.toml", "--cases", "cases.csv").stdout
     assert "250 kPa" in cases
     assert "105 mm/s" in cases
+    assert "load line" not in cases
+    loads = cases.splitlines()[-1].split("  ")
+    assert sum(cell.strip() == "500 N" for cell in loads) == 1
+    assert "driving pinion" not in shown
     mixed = bem("element", "pump.toml", "--scene", "mixed.toml", "--kind", "friction")
     assert mixed.returncode == 0, mixed.stderr
+    assert "thinnest film" not in mixed.stdout
     assert 'kind = "friction"' in (tmp_path / "mixed.toml").read_text()
 
 
@@ -679,6 +684,7 @@ def test_the_mixed_scene_of_a_polymer_bush_asks_for_nothing_of_its_material(bush
     facts = examine(plan_scene(element.scene(element.worst(), "friction"))[0])
     notes = {note.code: note for note in scene_warnings(facts)}
     assert CAP_NOT_OF_SOFTER.code not in notes
+    assert HARDNESS_UNLIKELY.code not in notes
     assert "bush" in str(notes[CYLINDER_NARROW.code])
     assert max(case.cap for case in facts.cases) < 0.3e9
 
