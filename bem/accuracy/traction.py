@@ -166,7 +166,13 @@ def film_of(found: Found) -> FilmSolution:
 
 def _power(film: FilmSolution, sliding: float) -> float:
     """Return the power of friction [W/m]: of sliding, and of the rolling force on either surface."""
-    return sliding * (film.speeds[0] - film.speeds[1]) + film.rolling_force * sum(film.speeds)
+    return sliding * (film.speeds[0] - film.speeds[1]) + rolling_power(film)
+
+
+def rolling_power(found: Found) -> float:
+    """Return the power of the rolling force on both surfaces [W/m], a part of the power of friction."""
+    film = film_of(found)
+    return film.rolling_force * sum(film.speeds)
 
 
 def _of_supply(case: TractionCase, film: FilmSolution) -> dict[str, float]:

@@ -100,10 +100,15 @@ def friction_power(element: Element, runs: Sequence[Running]) -> FrictionPower:
 
 
 def _power_with_asperities(one: Running, boundary: float) -> float:
-    """Return the friction power of film and asperities [W]: by kind friction, or from the estimated share."""
+    """Return the friction power of film and asperities [W]: by kind friction, or from the estimated share.
+
+    Asperities take their share of the sliding friction. Rolling resistance arises in the inlet, before the asperities
+    touch, and is that of the whole film. So does SKF's model of the frictional moment (catalogue of rolling bearings),
+    which weights the coefficient of sliding friction by the share of asperities, and not the rolling moment.
+    """
     if one.mixed_friction is not None:
         return one.mixed_friction * _slid(one)
-    return one.power + (one.asperity_share or 0.0) * (boundary * _slid(one) - one.power)
+    return one.power + (one.asperity_share or 0.0) * (boundary * _slid(one) - (one.power - one.rolling_power))
 
 
 def _slid(one: Running) -> float:

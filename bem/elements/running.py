@@ -39,7 +39,7 @@ class Running:
     """One contact at operating conditions; None where a value is not known.
 
     minimum_film : [m]. film_ratio : that over the rms roughness of both.
-    friction : force over load. power : of friction [W].
+    friction : force over load. power : of friction [W]. rolling_power : its part from rolling resistance [W].
     oil : mean temperature in the contact [K]. surface : the hotter surface at its hottest, flash included [K].
     notes : what the film says of its own limits.
     scatter : of the friction to smaller and larger values from the oil's constants; None but with shear_law "base_oil".
@@ -61,6 +61,7 @@ class Running:
     asperity_share: float | None = None
     flash: float | None = None
     mixed_friction: float | None = None
+    rolling_power: float = 0.0
 
     @property
     def converged(self) -> bool:
@@ -76,6 +77,7 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
     InputError : no oil, or surfaces that run against each other.
     """
     from bem.accuracy import traction_figures
+    from bem.accuracy.traction import rolling_power
     from bem.kinds.traction.run import case_of
     from bem.kinds.traction.scene import TractionScene
 
@@ -102,6 +104,7 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
         _asperity_share(element, figures["central_thickness"]) if shared is None else shared.asperity_share,
         flash_temperature(contact, figures["traction_coefficient"], modulus=element.modulus, bodies=element.bodies),
         None if shared is None else shared.friction,
+        rolling_power(found) * case.width,
     )
 
 

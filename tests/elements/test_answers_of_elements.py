@@ -192,6 +192,43 @@ def test_the_heat_balance_balances():
     assert balance_heat(plain) is plain
 
 
+@pytest.mark.internal
+def test_asperities_take_nothing_off_rolling_resistance():
+    """Pure rolling: one friction power of any roughness, in the answer, the table of cases and the heat balance."""
+    powers = {}
+    for roughness in ("50 nm", "400 nm"):
+        rough = load_element(STEEL_BEARING | {"rms_roughness": roughness})
+        runs = run_all(rough, most=3)
+        power = friction_power(rough, runs)
+        assert likely_power(rough, runs) == power.with_asperities == pytest.approx(power.film)
+        assert all(one.rolling_power == pytest.approx(one.power) for one in runs)
+        powers[roughness] = power.film
+    assert max(one.asperity_share for one in runs) > 0.2
+    assert powers["400 nm"] == pytest.approx(powers["50 nm"])
+    hot = balance_heat(
+        load_element(STEEL_BEARING | {"rms_roughness": "400 nm", "heat_balance": {"conductance": "2 W/K"}})
+    )
+    shown = float(dict(answer(hot, run_all(hot, most=PLACES)))["friction power"].partition(" W")[0])
+    assert hot.model.bulk_temperature - 343.15 == pytest.approx(shown / 2, abs=0.25)
+
+
+@pytest.mark.internal
+def test_asperities_replace_their_share_of_the_films_sliding():
+    """A flank: rolling resistance whole, sliding friction of film and asperities by their shares."""
+    gears = element_of("gear-pair", points=5)
+    one = run_contact(gears, gears.found.contacts[0])
+    slid = one.contact.load * abs(one.contact.speeds[0] - one.contact.speeds[1])
+    expected = (
+        one.rolling_power
+        + (1 - one.asperity_share) * (one.power - one.rolling_power)
+        + 0.12 * one.asperity_share * slid
+    )
+    assert 0 < one.rolling_power < 0.5 * one.power
+    power = friction_power(gears, [one]).with_asperities
+    whole = sum(other.load for other in gears.found.contacts) / len(gears.found.contacts) * gears.found.at_once
+    assert power == pytest.approx(expected / one.contact.load * whole)
+
+
 def test_films_of_gears_are_at_the_estimated_bulk_temperature():
     """Without one of the file: the oil's plus 0.7 mean flash temperatures, as in scuffing; else that of the file."""
     gears = element_of("gear-pair", points=5)
