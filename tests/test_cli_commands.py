@@ -67,6 +67,9 @@ def test_plan_prints_steps_reasons_memory_and_time_and_writes_nothing(small):
     rates = json.loads((small / "cache" / "bem" / "machine.json").read_text())
     assert all(1e7 < rate < 1e13 for rate in rates.values())
     assert sorted(os.listdir(small)) == ["cache", "small.toml"]
+    shared = bem("plan", "small.toml", "--ranks", "3", cwd=small, env={"XDG_CACHE_HOME": str(small / "cache")})
+    assert "shared by 3 processes" in shared.stdout
+    assert "the others need about" in " ".join(shared.stdout.split())
 
 
 @pytest.mark.slow

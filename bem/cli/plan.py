@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import typer
 
@@ -13,7 +13,17 @@ def register(app: typer.Typer) -> None:
     """Add the command."""
 
     @app.command(short_help="Show what would be computed and warned of, what is skipped, memory, time.")
-    def plan(scene: SceneArgument, set_: SetOption = None, accuracy: AccuracyOption = None) -> None:
+    def plan(
+        scene: SceneArgument,
+        set_: SetOption = None,
+        accuracy: AccuracyOption = None,
+        ranks: Annotated[
+            int,
+            typer.Option(
+                min=1, metavar="N", help="Plan for `mpiexec -n N bem run SCENE --ranks`: memory and time of each."
+            ),
+        ] = 1,
+    ) -> None:
         """Show what a scene would compute: bodies, surfaces and what is done to them, grid, Hertz contact, steps with
         estimated memory and time, what is skipped and why, what is not held in double precision and what that costs,
         and what an expert would warn of.
@@ -24,14 +34,18 @@ def register(app: typer.Typer) -> None:
         Examples:
           bem plan rough-contact
           bem plan rough-contact --set grid.shape=8192
+          bem plan rough-contact --set grid.shape=8192 --ranks 4
         """
         from bem.cli._terminal import print_text, show_remarks, show_warnings
         from bem.cli.run import seconds_to_compile, tell_changed_size
         from bem.runs import plan_scene
+        from bem.runs.scene import plan_on_ranks
         from bem.scenes.checks import examine, scene_warnings
         from bem.scenes.planner import available_memory, show_bytes
 
         resolved, planned = plan_scene(scene, set_ or (), asked(accuracy))
+        if ranks > 1:
+            planned = plan_on_ranks(resolved, planned, ranks)
         tell_changed_size(scene, set_ or ())
         facts = examine(resolved)
         warnings = scene_warnings(facts)
@@ -40,6 +54,11 @@ def register(app: typer.Typer) -> None:
         )
         _show_contacts(facts)
         _show_steps(planned)
+        if ranks > 1:
+            print_text(
+                "Memory and time are those of the first process, which does all but the contacts alone; the others "
+                f"need about {show_bytes(planned.helper_memory)} each, and wait meanwhile."
+            )
         show_warnings(warnings)
         show_remarks(warnings)
         seconds = seconds_to_compile(resolved)

@@ -20,6 +20,7 @@ from bem.notes.merge import without_foreseen
 from bem.results.arrays import LEFT_OUT, Arrays, stacks_of_maps
 from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, check_data, open_run
+from bem.scenes import build
 from bem.scenes.asked import Asked, with_accuracy
 from bem.scenes.checks import examine, outcome_warnings, scene_warnings, suspected_units
 from bem.scenes.checks.plausible import notes_over
@@ -103,8 +104,9 @@ def run_scene(
     check_out(out)
     formats = ("vtu", *(("png", "pdf") if pdf else ("png",))) if figures else ("vtu",)
     scene, planned = plan_scene(source, settings, accuracy)
-    if current_session() is not None:
-        workers = _on_ranks(scene, workers, scheduler)
+    if (session := current_session()) is not None:
+        workers = _on_ranks(workers, scheduler)
+        planned = plan_on_ranks(scene, planned, session.ranks.size)
     check_memory(planned)
     held = RunDirectory.start(
         None if out is None else Path(out), scene.name, dump_scene(scene), resume=resume, overwrite=overwrite
@@ -117,21 +119,28 @@ def run_scene(
     return open_run(directory.path)
 
 
-def _on_ranks(scene: SceneModel, workers: int | None, scheduler: str | None) -> int:
-    """Return the number of workers of a scene on several ranks, one; refuse what they cannot do.
+def _on_ranks(workers: int | None, scheduler: str | None) -> int:
+    """Return the number of workers of a scene on several ranks, one; InputError where more or a scheduler are given."""
+    if scheduler is not None or (workers or 1) > 1:
+        raise InputError("--ranks with --workers or --scheduler; allowed: --ranks alone, its cases run one by one")
+    return 1
+
+
+def plan_on_ranks(scene: SceneModel, planned: Plan, ranks: int) -> Plan:
+    """Return the plan of the first of several processes that share each contact of a scene (`bem run --ranks`).
 
     Raises
     ------
-    InputError : another kind of scene, options that hold in one process only, workers or a scheduler as well.
+    InputError : another kind of scene, options that hold in one process only.
     """
-    if scheduler is not None or (workers or 1) > 1:
-        raise InputError("--ranks with --workers or --scheduler; allowed: --ranks alone, its cases run one by one")
     refuse = get_kind(scene.kind).refuse_on_ranks
     if refuse is None:
         raise InputError(f'--ranks: scenes of kind "{scene.kind}" run in one process; allowed: kind = "contact"')
+    cells = 1
     for case in campaign_of(scene).cases:
         refuse(case.scene)
-    return 1
+        cells = max(cells, build.grid_of(case.scene.grid).cells)  # type: ignore[attr-defined]  # of kind contact
+    return planned.on_ranks(ranks, cells)
 
 
 def check_out(out: str | os.PathLike[str] | None) -> None:

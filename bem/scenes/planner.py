@@ -7,7 +7,7 @@ import math
 import os
 import tempfile
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -21,6 +21,17 @@ SEARCHED_IN_SINGLE = (
 )
 """Error of contacts searched in single precision: tests/frugality/test_plans.py compares them with those searched in
 double."""
+CONTACT = "contact"
+"""Name of the step that several processes can share."""
+_RANK_BYTES, _RANK_BYTES_OF_POINTS, _RANK_FIELDS = 120.0, 15.0, 4.0
+"""Memory of a shared contact, all processes together: bytes for each cell of the grid and each point of its transforms;
+and the fields of all cells that it leaves with the first process: pressure, displacement, gap, overlap.
+
+Measured with 2048 x 2048 cells above the start, on one and two processes: 510 and 2 x 260 MB periodic (566 by these
+numbers), 570 and 2 x 370 MB free (755)."""
+_RANK_WORK = 13.0
+"""Processor time of a shared contact, all processes together, over that of the solver of one process: 11 and 13 times
+on one and two processes with 2048 x 2048 cells periodic, 14 and 16 times free."""
 _START = 0.8  # seconds until libraries and compiled loops are loaded
 
 
@@ -77,6 +88,31 @@ class Plan:
                 peak = max(peak, held + step.memory)
                 held += step.memory if step.kept is None else step.kept
         return peak
+
+    def on_ranks(self, ranks: int, cells: int) -> Plan:
+        """Return the plan of the first of some processes that share each contact of so many cells (`bem.distributed`).
+
+        Its other steps stay with this process, and so do the fields that a contact leaves.
+        """
+        steps = tuple(self._shared(step, ranks, cells) if step.name == CONTACT else step for step in self.steps)
+        return replace(self, steps=steps, of_cases=tuple(one.on_ranks(ranks, cells) for one in self.of_cases))
+
+    @property
+    def helper_memory(self) -> float:
+        """Estimated bytes of a process that helps with shared contacts alone."""
+        return Plan(tuple(step for step in self.steps if step.name == CONTACT)).memory
+
+    def _shared(self, step: Step, ranks: int, cells: int) -> Step:
+        return replace(
+            step,
+            why=f"{step.why}; shared by {ranks} processes: memory and time of each, all together 10 to 16 times the "
+            "processor time of the solver of one process",
+            transforms=step.transforms * _RANK_WORK / ranks,
+            memory=(_RANK_BYTES * cells + _RANK_BYTES_OF_POINTS * step.points) / ranks,
+            kept=8.0 * cells * _RANK_FIELDS,
+            seconds=step.seconds * _RANK_WORK / ranks,
+            precision="",
+        )
 
     @property
     def precisions(self) -> dict[str, str]:
