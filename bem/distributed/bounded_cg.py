@@ -18,8 +18,9 @@ A load is met by the approach: whenever the violation is small against the error
 bracket gives the next approach. The load rises with the approach, so there is one answer.
 
 On a doubly periodic grid a uniform pressure displaces nothing, and near full contact the load runs away with the
-approach. K therefore has a compliance c of the mean there: c F is added to the displacement of all cells, and to the
-approach. The deformed gap is the same, the energy strictly convex. A prescribed approach is then searched as a load is.
+approach. K therefore has a compliance c of the mean there: c F, with F the sum of the pressures, is added to the
+displacement of all cells, and to the approach. The deformed gap is the same, the energy strictly convex. A prescribed
+approach is then searched as a load is.
 
 The approach, not a shift of the pressures, meets the load: with a hardness a uniform shift displaces far more than it
 mends, and the iteration hardly converges.
@@ -47,21 +48,21 @@ from bem.distributed.ranks import reduce_rows
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
-_LEAST_STEP = 0.02
+_LEAST_FRACTION = 0.02
 """Least fraction of a projected step that is taken; below it a gradient step follows."""
 
-_WHOLE_STEP = 2 / 3
+_WHOLE_STEP_FRACTION = 2 / 3
 """Fraction of a projected step at the minimum of energy from which on the whole step is taken. It still takes off a
 quarter of the first slope (Armijo's condition), and cells reach their bounds; shortened steps keep them a bit off."""
 
-_CLOSED = 1e-12
+_CLOSED_BRACKET = 1e-12
 """Width of a bracket of approaches, over the approach, at which it is closed: above rounding."""
 
-_REFRESH = 1e-4
+_REFRESH_REDUCTION = 1e-4
 """Fall of the residual after which the displacement is computed in double precision again: responses in single
 precision add errors of about 1e-6 of what the residual was."""
 
-_STALLED = 150
+_STALL_ITERATIONS = 150
 """Iterations without a violation lower by a tenth after which the solution stops."""
 
 
@@ -93,8 +94,11 @@ class Iterate(NamedTuple):
 
 
 class Direction(NamedTuple):
-    """Search direction and the residual that it was made of, in single precision, and the product of that residual with
-    the preconditioned one."""
+    """Search direction of an iteration, own rows, in single precision.
+
+    residual : negative gap of the active cells from which the direction follows. product : of that residual with the
+    preconditioned one, over all ranks.
+    """
 
     values: NDArray[np.float32]
     residual: NDArray[np.float32]
@@ -109,8 +113,8 @@ class ApproachSearch:
     target : prescribed sum of pressures [Pa], or prescribed approach [m].
     controls_load : which of both is prescribed.
     compliance : displacement of all cells per sum of pressures [m/Pa], that of `ColumnSpectra.mean_compliance`.
-    length : over which the load changes by its own size, and in which errors of an approach are measured [m].
-    ratio : violation relative to the error below which the pressure is exact enough for a change of the approach.
+    length : change of the approach that changes the load by its own size, the unit of errors of an approach [m].
+    ratio : violation over the error below which the pressure is exact enough for a change of the approach.
     """
 
     approach: float
@@ -122,15 +126,15 @@ class ApproachSearch:
     _bracket: tuple[float, float] = (-math.inf, math.inf)
     _last: tuple[float, float] | None = None
 
-    def error(self, force: float) -> float:
+    def error(self, pressure_sum: float) -> float:
         """Return the relative error of the prescribed quantity, with its sign, from the sum of pressures."""
         if self.controls_load:
-            return (force - self.target) / self.target
-        return (self.true_approach(force) - self.target) / self.length
+            return (pressure_sum - self.target) / self.target
+        return (self.true_approach(pressure_sum) - self.target) / self.length
 
-    def true_approach(self, force: float) -> float:
+    def true_approach(self, pressure_sum: float) -> float:
         """Return the approach without the mean compliance [m]."""
-        return self.approach - self.compliance * force
+        return self.approach - self.compliance * pressure_sum
 
     def is_due(self, error: float, violation: float) -> bool:
         """Return True if the violation, over its reference, is small against the error."""
@@ -142,32 +146,35 @@ class ApproachSearch:
         Pressures that still violate the contact conditions may bracket wrongly. A bracket that has closed before the
         error is met is opened again, and pressures are then asked to be ten times as exact.
         """
-        here = self.approach
+        present = self.approach
         low, high = self._bracket
-        low, high = (max(low, here), high) if error < 0 else (low, min(high, here))
-        if high - low <= _CLOSED * abs(here):
+        low, high = (max(low, present), high) if error < 0 else (low, min(high, present))
+        if high - low <= _CLOSED_BRACKET * abs(present):
             self.ratio *= 0.1
             (low, high), self._last = (-math.inf, math.inf), None
         step = -error * self.length
         if self.controls_load:  # two thirds: a ball's load grows as approach^(3/2)
-            step = -error * (min(self.length, 2 / 3 * here) + self.compliance * self.target)
+            step = -error * (min(self.length, 2 / 3 * present) + self.compliance * self.target)
         if self._last is not None and self._last[1] != error:
-            step = -error * (here - self._last[0]) / (error - self._last[1])
-        trial = here + step
+            step = -error * (present - self._last[0]) / (error - self._last[1])
+        trial = present + step
         if not low < trial < high or step * error >= 0:
             outer = high if error < 0 else low
-            trial = 0.5 * (here + outer) if math.isfinite(outer) else here - math.copysign(self.length, error)
-        self._last, self.approach, self._bracket = (here, error), trial, (low, high)
+            trial = 0.5 * (present + outer) if math.isfinite(outer) else present - math.copysign(self.length, error)
+        self._last, self.approach, self._bracket = (present, error), trial, (low, high)
 
 
 @dataclass(frozen=True)
 class BoundedResult:
-    """Last iterate, its true approach above the gap's lowest value [m], iterations; whether the tolerance was met."""
+    """Outcome of `solve_bounded`.
+
+    iterate : the last one. approach : without the mean compliance, above the gap's lowest value [m].
+    iterations : number of them. stalled : True if the violation ceased to fall before the tolerance was met.
+    """
 
     iterate: Iterate
     approach: float
     iterations: int
-    met: bool
     stalled: bool
 
 
@@ -177,14 +184,14 @@ def solve_bounded(
     pressure: FloatArray,
     *,
     tolerance: float,
-    reference: Callable[[float], float],
+    violation_scale: Callable[[float], float],
     max_iterations: int,
     callback: Callable[[int, float, float], object] | None = None,
 ) -> BoundedResult:
     """Iterate until the largest violation and the error of the load meet the tolerance; collective.
 
     pressure : first own rows, within the bounds [Pa].
-    reference : returns what a violation is relative to [m], from the largest displacement [m].
+    violation_scale : returns the length [m] that violations are relative to, from the largest displacement [m].
     callback : called with iterations, residual and the fraction of cells in contact.
     """
     iterate = Iterate(pressure, problem.convolution.displacement(pressure))
@@ -192,32 +199,32 @@ def solve_bounded(
     best, since, last_exact = math.inf, 0, math.inf
     for iteration in range(max_iterations + 1):
         deformed = problem.gap + iterate.displacement - search.approach
-        (force, loaded), (violation, displacement) = problem.reduce(
+        (pressure_sum, loaded), (violation, displacement) = problem.reduce(
             (iterate.pressure.sum(axis=1), (iterate.pressure > 0).sum(axis=1)),
             (
                 violations_of_rows(iterate.pressure, deformed, problem.cap),
                 np.maximum(iterate.displacement.max(axis=1), -iterate.displacement.min(axis=1)),
             ),
         )
-        scale, error = reference(displacement), search.error(force)
-        residual, approach = max(max(violation, 0.0) / scale, abs(error)), search.true_approach(force)
+        scale, error = violation_scale(displacement), search.error(pressure_sum)
+        residual, approach = max(max(violation, 0.0) / scale, abs(error)), search.true_approach(pressure_sum)
         if callback is not None:
             callback(iteration, residual, loaded / problem.convolution.grid.cells)
         last_exact = residual if iterate.exact else last_exact
-        if not iterate.exact and (residual <= tolerance or residual < _REFRESH * last_exact):
+        if not iterate.exact and (residual <= tolerance or residual < _REFRESH_REDUCTION * last_exact):
             iterate = Iterate(iterate.pressure, problem.convolution.displacement(iterate.pressure))
             continue
         if residual <= tolerance:
-            return BoundedResult(iterate, approach, iteration, met=True, stalled=False)
+            return BoundedResult(iterate, approach, iteration, stalled=False)
         best, since = (residual, 0) if residual < 0.9 * best else (best, since + 1)
-        if since > _STALLED:
-            return BoundedResult(iterate, approach, iteration, met=False, stalled=True)
+        if since > _STALL_ITERATIONS:
+            return BoundedResult(iterate, approach, iteration, stalled=True)
         if abs(error) > tolerance and search.is_due(error, violation / scale):
             search.advance(error)
             direction = None
             continue
         iterate, direction = _step(problem, iterate, deformed, direction)
-    return BoundedResult(iterate, approach, max_iterations, met=False, stalled=False)
+    return BoundedResult(iterate, approach, max_iterations, stalled=False)
 
 
 def violations_of_rows(pressure: FloatArray, deformed: FloatArray, cap: float) -> FloatArray:
@@ -246,18 +253,18 @@ def _step(
         (product,), _ = problem.reduce((np.vecdot(preconditioned, residual),))
         values, slope = preconditioned, product
     else:
-        before = np.where(active, last.values, 0.0)
-        (product, mixed, along), _ = problem.reduce(
+        last_direction = np.where(active, last.values, 0.0)
+        (product, last_product, last_slope), _ = problem.reduce(
             (
                 np.vecdot(preconditioned, residual),
                 np.vecdot(preconditioned, last.residual),
-                np.vecdot(before, residual),
+                np.vecdot(last_direction, residual),
             )
         )
-        factor = max(0.0, (product - mixed) / last.product)
-        if product + factor * along <= 0:
-            factor = 0.0
-        values, slope = preconditioned + factor * before, product + factor * along
+        coefficient = max(0.0, (product - last_product) / last.product)  # Polak and Ribiere's
+        if product + coefficient * last_slope <= 0:
+            coefficient = 0.0
+        values, slope = preconditioned + coefficient * last_direction, product + coefficient * last_slope
     response = problem.convolution.response(values)
     (curvature,), _ = problem.reduce((np.vecdot(values, response),))
     if not (curvature > 0 and slope > 0):
@@ -270,7 +277,7 @@ def _step(
     if outside == 0:
         return Iterate(trial, iterate.displacement + length * response, exact=False), direction
     del trial, response, values, residual, preconditioned
-    projected = _along_segment(problem, iterate, deformed, bounded)
+    projected = _minimum_on_segment(problem, iterate, deformed, bounded)
     if projected is None:
         return _gradient_step(problem, iterate, deformed), None
     return projected, direction
@@ -279,20 +286,24 @@ def _step(
 def _gradient_step(problem: SlabProblem, iterate: Iterate, deformed: FloatArray) -> Iterate:
     """Return the projected gradient step, or the iterate itself where rounding leaves none."""
     trial = iterate.pressure - deformed / problem.convolution.spectra.largest
-    projected = _along_segment(problem, iterate, deformed, np.clip(trial, 0.0, problem.cap), least=0.0)
+    projected = _minimum_on_segment(problem, iterate, deformed, np.clip(trial, 0.0, problem.cap), least=0.0)
     return iterate if projected is None else projected
 
 
-def _along_segment(
-    problem: SlabProblem, iterate: Iterate, deformed: FloatArray, end: FloatArray, least: float = _LEAST_STEP
+def _minimum_on_segment(
+    problem: SlabProblem, iterate: Iterate, deformed: FloatArray, end: FloatArray, least: float = _LEAST_FRACTION
 ) -> Iterate | None:
-    """Return another pressure, or that of least energy on the way to it; None if that is near the iterate."""
-    there = problem.convolution.displacement(end)
-    change, change_of_displacement = end - iterate.pressure, there - iterate.displacement
+    """Return the iterate of least energy between an iterate and another pressure; None if it is near the iterate.
+
+    end : the other pressure, own rows [Pa]; it is taken where the energy hardly rises again before it.
+    least : fraction of the way below which the result is None.
+    """
+    end_displacement = problem.convolution.displacement(end)
+    change, change_of_displacement = end - iterate.pressure, end_displacement - iterate.displacement
     (slope, curvature), _ = problem.reduce((np.vecdot(change, deformed), np.vecdot(change, change_of_displacement)))
     if not (slope < 0 and curvature > 0) or -slope <= least * curvature:
         return None
     fraction = -slope / curvature
-    if fraction >= _WHOLE_STEP:
-        return Iterate(end, there)
+    if fraction >= _WHOLE_STEP_FRACTION:
+        return Iterate(end, end_displacement)
     return Iterate(iterate.pressure + fraction * change, iterate.displacement + fraction * change_of_displacement)

@@ -29,7 +29,7 @@ _BLOCK = 1 << 15
 
 
 @dataclass
-class Applications:
+class ConvolutionCount:
     """Number of convolutions so far, preconditioning included."""
 
     number: int = 0
@@ -45,21 +45,22 @@ class SlabConvolution:
     grid: Grid
     ranks: Ranks
     spectra: ColumnSpectra
-    count: Applications = field(default_factory=Applications, compare=False)
+    count: ConvolutionCount = field(default_factory=ConvolutionCount, compare=False)
 
     def displacement(self, pressure: FloatArray) -> FloatArray:
         """Return the displacement [m] under a pressure [Pa], in double precision."""
-        return self._through(pressure, self.spectra.response)
+        return self._filtered(pressure, self.spectra.response)
 
     def response(self, direction: FloatArray) -> FloatArray:
         """Return the displacement [m] under a search direction [Pa], computed in single precision."""
-        return self._through(direction.astype(np.float32), self.spectra.response).astype(np.float64)
+        return self._filtered(direction.astype(np.float32), self.spectra.response).astype(np.float64)
 
     def precondition(self, residual: FloatArray) -> FloatArray:
         """Return an approximate pressure [Pa] for a displacement [m], computed in single precision."""
-        return self._through(residual.astype(np.float32), self.spectra.stiffness).astype(np.float64)
+        return self._filtered(residual.astype(np.float32), self.spectra.stiffness).astype(np.float64)
 
-    def _through(self, rows: NDArray[Any], spectrum: NDArray[Any]) -> NDArray[Any]:
+    def _filtered(self, rows: NDArray[Any], spectrum: NDArray[Any]) -> NDArray[Any]:
+        """Return own rows of a field after its spectrum on own columns is multiplied by another."""
         self.count.number += 1
         nx, ny = self.grid.shape
         px, py = padded_shape(self.grid.shape, self.grid.periodic)
@@ -96,7 +97,7 @@ def _parts(count: int, length: int) -> list[slice]:
 
 
 def _multiply(columns: NDArray[Any], spectrum: NDArray[Any], length: int) -> None:
-    """Pass columns (nx, own columns) through an even spectrum (length // 2 + 1, own columns), in place."""
+    """Convolve columns (nx, own columns) with an even spectrum (length // 2 + 1, own columns), in place."""
     nx, own = columns.shape
     half = length // 2 + 1
     for part in _parts(own, length):

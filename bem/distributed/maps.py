@@ -29,17 +29,18 @@ def read_rows(path: str | os.PathLike[str], grid: Grid, ranks: Ranks, *, variabl
     InputError : a file that cannot be read, another shape than the grid's, no numbers; on all ranks.
     """
     rows: FloatArray | None = None
-    words = ""
+    failure = ""
     try:
         rows = _read(Path(path), grid.shape, own_slice(grid.shape[0], ranks), variable)
     except (OSError, ValueError, KeyError) as error:
-        words = str(error)
-    _raise_together(ranks, words, InputError, f"{path}: cannot be read")
+        failure = str(error)
+    _raise_together(ranks, failure, InputError, f"{path}: cannot be read")
     assert rows is not None
     return rows
 
 
 def _read(path: Path, shape: tuple[int, int], own: slice, variable: str) -> FloatArray:
+    """Return own rows of a file's map; a map of another shape or without numbers is a ValueError."""
     if variable:
         import h5py
 
@@ -53,6 +54,7 @@ def _read(path: Path, shape: tuple[int, int], own: slice, variable: str) -> Floa
 
 
 def _check(found: NDArray, shape: tuple[int, int]) -> None:
+    """Refuse a map of another shape, or without real numbers (ValueError)."""
     if tuple(found.shape) != shape or found.dtype.kind not in "fiu":
         raise ValueError(
             f"{found.dtype} of shape {tuple(found.shape)}; allowed: real numbers of the grid's shape {shape}"
@@ -68,7 +70,7 @@ def write_rows(path: str | os.PathLike[str], rows: FloatArray, grid: Grid, ranks
     """
     target = Path(path)
     part = target.with_name(target.name + ".part")
-    words = ""
+    failure = ""
 
     def create() -> None:
         try:
@@ -83,9 +85,9 @@ def write_rows(path: str | os.PathLike[str], rows: FloatArray, grid: Grid, ranks
         whole.flush()
         del whole
     except (OSError, ValueError) as error:
-        words = str(error)
+        failure = str(error)
     try:
-        _raise_together(ranks, words, ResultsError, f"{target}: cannot be written")
+        _raise_together(ranks, failure, ResultsError, f"{target}: cannot be written")
     except ResultsError:
         if ranks.rank == 0:
             part.unlink(missing_ok=True)
@@ -93,8 +95,11 @@ def write_rows(path: str | os.PathLike[str], rows: FloatArray, grid: Grid, ranks
     computed_on_first(ranks, lambda: os.replace(part, target))
 
 
-def _raise_together(ranks: Ranks, words: str, kind: type[InputError] | type[ResultsError], what: str) -> None:
-    """Raise an error on all ranks if one of them has words of a failure; only that one knows them."""
-    failed = ranks.all_rows(np.full((1, 1), float(bool(words))), ranks.size)
+def _raise_together(ranks: Ranks, failure: str, kind: type[InputError] | type[ResultsError], what: str) -> None:
+    """Raise an error on all ranks if one of them failed; collective.
+
+    failure : words of the failure of this rank, empty without one; other ranks give its number.
+    """
+    failed = ranks.allgather_rows(np.full((1, 1), float(bool(failure))), ranks.size)
     if failed.any():
-        raise kind(f"{what} ({words or f'by rank {int(np.argmax(failed))}'})")
+        raise kind(f"{what} ({failure or f'by rank {int(np.argmax(failed))}'})")

@@ -37,7 +37,7 @@ class MpiRanks:
         self.size: int = communicator.Get_size()
         self.count = ExchangeCount()
 
-    def all_rows(self, rows: Array, total: int) -> Array:
+    def allgather_rows(self, rows: Array, total: int) -> Array:
         """See `bem.distributed.ranks.Ranks`."""
         self.count.reductions += 1
         bounds, width = edges(total, self.size), rows.shape[1]
@@ -46,7 +46,7 @@ class MpiRanks:
         self.communicator.Allgatherv(np.ascontiguousarray(rows), [out, counts])
         return out
 
-    def exchange(self, blocks: Array, sent: list[int], received: list[int]) -> Array:
+    def all_to_all(self, blocks: Array, sent: list[int], received: list[int]) -> Array:
         """See `bem.distributed.ranks.Ranks`."""
         self.count.transposes += 1
         out = np.empty(sum(received), blocks.dtype)

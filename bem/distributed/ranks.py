@@ -40,10 +40,10 @@ class Ranks(Protocol):
     size: int
     count: ExchangeCount
 
-    def all_rows(self, rows: Array, total: int) -> Array:
+    def allgather_rows(self, rows: Array, total: int) -> Array:
         """Return the rows of all ranks together (total, k) from those of each rank (own, k)."""
 
-    def exchange(self, blocks: Array, sent: list[int], received: list[int]) -> Array:
+    def all_to_all(self, blocks: Array, sent: list[int], received: list[int]) -> Array:
         """Send a block of entries to every rank and return the blocks received, both in the order of the ranks.
 
         blocks : one-dimensional, `sent[j]` entries for rank j. received : number of entries from each rank.
@@ -67,12 +67,12 @@ class OneRank:
     size: int = 1
     count: ExchangeCount = field(default_factory=ExchangeCount)
 
-    def all_rows(self, rows: Array, total: int) -> Array:
+    def allgather_rows(self, rows: Array, total: int) -> Array:
         """See `Ranks`."""
         self.count.reductions += 1
         return rows
 
-    def exchange(self, blocks: Array, sent: list[int], received: list[int]) -> Array:
+    def all_to_all(self, blocks: Array, sent: list[int], received: list[int]) -> Array:
         """See `Ranks`."""
         self.count.transposes += 1
         return blocks
@@ -136,6 +136,6 @@ def reduce_rows(
     sums, maxima : each (own rows,). total : number of rows of all ranks.
     """
     values = np.stack([np.asarray(column, np.float64) for column in (*sums, *maxima)], axis=1)
-    everywhere = ranks.all_rows(values, total)
+    everywhere = ranks.allgather_rows(values, total)
     added = [float(everywhere[:, k].sum()) for k in range(len(sums))]
     return added, [float(everywhere[:, len(sums) + k].max()) for k in range(len(maxima))]

@@ -100,27 +100,29 @@ def solve_slabs(
     rows = own_slice(grid.shape[0], ranks)
     _check(gap, grid, pair, ranks, load, approach, hardness, tolerance)
     cap = math.inf if hardness is None else float(hardness)
-    least, mean, rms = _moments(gap, grid, ranks)
+    lowest, mean, rms = _moments(gap, grid, ranks)
     _refuse_infeasible(grid, load, approach, cap, mean, CERTIFICATE_MARGIN * tolerance * rms)
     convolution = slab_convolution(grid, pair, ranks)
-    problem = SlabProblem(convolution, gap - least, cap)
+    problem = SlabProblem(convolution, gap - lowest, cap)
     unit = 2.0 ** round(math.log2(convolution.spectra.largest)) if convolution.spectra.largest > 0 else 1.0
     scale = 0.0 if load is None else load / grid.area * unit
 
-    def reference(displacement: float) -> float:
+    def violation_scale(displacement: float) -> float:
+        """Return the length [m] that violations are relative to, from the largest displacement [m]."""
         largest = max(displacement, scale)
         return (largest if is_flat(rms, largest) else rms) or 1.0
 
     iterations = 0
-    if load == 0 or (approach is not None and approach <= least):
-        pressure, above, unmet = np.zeros_like(gap), 0.0 if approach is None else approach - least, Status.STALLED
+    if load == 0 or (approach is not None and approach <= lowest):
+        pressure, above_lowest = np.zeros_like(gap), 0.0 if approach is None else approach - lowest
+        status_if_unmet = Status.STALLED
     else:
         start, coarse_approach = coarse_start(gap, grid, pair, ranks, load=load, approach=approach, cap=cap)
         compliance = convolution.spectra.mean_compliance / grid.cells
-        (first_force,), _ = problem.reduce((start.sum(axis=1),))
+        (first_sum,), _ = problem.reduce((start.sum(axis=1),))
         search = ApproachSearch(
-            (coarse_approach if approach is None else approach) - least + compliance * first_force,
-            (load or 0.0) / grid.cell_area if approach is None else approach - least,
+            (coarse_approach if approach is None else approach) - lowest + compliance * first_sum,
+            (load or 0.0) / grid.cell_area if approach is None else approach - lowest,
             approach is None,
             compliance,
             0.5 * rms or math.inf,
@@ -130,22 +132,22 @@ def solve_slabs(
             search,
             start,
             tolerance=CERTIFICATE_MARGIN * tolerance,
-            reference=reference,
+            violation_scale=violation_scale,
             max_iterations=max_iterations,
             callback=callback if ranks.rank == 0 else None,
         )
-        pressure, above, iterations = found.iterate.pressure, found.approach, found.iterations
-        unmet = Status.STALLED if found.stalled else Status.MAX_ITERATIONS
+        pressure, above_lowest, iterations = found.iterate.pressure, found.approach, found.iterations
+        status_if_unmet = Status.STALLED if found.stalled else Status.MAX_ITERATIONS
         del found
     return _certified(
         problem,
         pressure,
-        above,
-        least=least,
+        above_lowest,
+        lowest=lowest,
         load=load,
-        reference=reference,
+        violation_scale=violation_scale,
         tolerance=tolerance,
-        unmet=unmet,
+        status_if_unmet=status_if_unmet,
         rows=rows,
         iterations=iterations,
         unit=unit,
@@ -182,7 +184,7 @@ def _check(
         raise InputError(messages)
     shape = (own_length(grid.shape[0], ranks, ranks.rank), grid.shape[1])
     wrong = gap.shape != shape or gap.dtype != np.float64 or not np.isfinite(gap).all()
-    ranks_wrong = ranks.all_rows(np.full((1, 1), float(wrong)), ranks.size)
+    ranks_wrong = ranks.allgather_rows(np.full((1, 1), float(wrong)), ranks.size)
     if ranks_wrong.any():
         first = int(np.argmax(ranks_wrong))
         raise InputError(
@@ -193,16 +195,17 @@ def _check(
 
 def _moments(gap: FloatArray, grid: Grid, ranks: Ranks) -> tuple[float, float, float]:
     """Return minimum, mean and standard deviation of the gap of all ranks [m]."""
-    everywhere = ranks.all_rows(np.stack([gap.min(axis=1), gap.sum(axis=1)], axis=1), grid.shape[0])
+    everywhere = ranks.allgather_rows(np.stack([gap.min(axis=1), gap.sum(axis=1)], axis=1), grid.shape[0])
     mean = float(everywhere[:, 1].sum()) / grid.cells
     about = gap - mean
-    squares = ranks.all_rows(np.vecdot(about, about)[:, None], grid.shape[0])
+    squares = ranks.allgather_rows(np.vecdot(about, about)[:, None], grid.shape[0])
     return float(everywhere[:, 0].min()), mean, math.sqrt(float(squares.sum()) / grid.cells)
 
 
 def _refuse_infeasible(
     grid: Grid, load: float | None, approach: float | None, cap: float, mean: float, slack: float
 ) -> None:
+    """Refuse a load above hardness x area, and an approach of elastic bodies beyond full contact on a period."""
     if load is not None and load > cap * grid.area * (1 + 1e-14):
         raise InfeasibleError(
             f"load {load!r} N is above hardness x area = {cap * grid.area!r} N; allowed: a lower load or a larger grid"
@@ -219,11 +222,11 @@ def _certified(
     pressure: FloatArray,
     approach: float,
     *,
-    least: float,
+    lowest: float,
     load: float | None,
-    reference: Callable[[float], float],
+    violation_scale: Callable[[float], float],
     tolerance: float,
-    unmet: Status,
+    status_if_unmet: Status,
     rows: slice,
     iterations: int,
     unit: float,
@@ -233,31 +236,34 @@ def _certified(
     grid, cap = convolution.grid, problem.cap
     displacement = convolution.displacement(pressure)
     if convolution.spectra.mean_compliance > 0:
-        (force,), _ = problem.reduce((pressure.sum(axis=1),))
-        displacement -= convolution.spectra.mean_compliance / grid.cells * force
+        (pressure_sum,), _ = problem.reduce((pressure.sum(axis=1),))
+        displacement -= convolution.spectra.mean_compliance / grid.cells * pressure_sum
     deformed = problem.gap + displacement - approach
     touching = pressure > 0
     opened = np.where(touching, 0.0, np.maximum(deformed, 0.0))
-    (force, loaded, volume), (largest, highest, displaced) = problem.reduce(
+    (pressure_sum, loaded, volume), (largest, highest, displaced) = problem.reduce(
         (pressure.sum(axis=1), touching.sum(axis=1), opened.sum(axis=1)),
         (violations_of_rows(pressure, deformed, cap), pressure.max(axis=1), np.abs(displacement).max(axis=1)),
     )
-    found = force * grid.cell_area
-    load_error = 0.0 if load is None or found == load else abs(found - load) / load if load > 0 else math.inf
-    residual = max(max(largest, 0.0) / reference(displaced), load_error)
+    found_load = pressure_sum * grid.cell_area
+    if load is None or found_load == load:
+        load_error = 0.0
+    else:
+        load_error = abs(found_load - load) / load if load > 0 else math.inf
+    residual = max(max(largest, 0.0) / violation_scale(displaced), load_error)
     return SlabSolution(
         rows=rows,
         pressure=pressure,
         displacement=displacement,
         gap=np.where(touching, deformed, opened),
-        approach=approach + least,
-        load=found,
+        approach=approach + lowest,
+        load=found_load,
         counted_area=loaded * grid.cell_area,
         maximum_pressure=highest,
         mean_gap=volume / grid.cells,
         response_unit=unit,
         residual=residual,
-        status=Status.CONVERGED if residual <= tolerance else unmet,
+        status=Status.CONVERGED if residual <= tolerance else status_if_unmet,
         iterations=iterations,
         convolutions=convolution.count.number,
     )

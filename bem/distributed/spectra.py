@@ -58,7 +58,7 @@ def column_spectra(grid: Grid, bodies: tuple[Body, ...], ranks: Ranks) -> Column
     else:
         response, mean_compliance = _coefficients(grid, bodies, padded, ranks), 0.0
     own_largest = float(np.abs(response).max(initial=0.0))
-    largest = float(ranks.all_rows(np.full((1, 1), own_largest), ranks.size).max())
+    largest = float(ranks.allgather_rows(np.full((1, 1), own_largest), ranks.size).max())
     return ColumnSpectra(response, stiffness.astype(np.float32), largest, mean_compliance)
 
 

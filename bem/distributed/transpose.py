@@ -32,13 +32,13 @@ def to_columns(buffer: Array, shape: tuple[int, int], ranks: Ranks) -> Array:
     buffer : the own rows as `blocks_of_columns`. shape : (rows of all ranks, columns of all ranks).
     """
     sent, received, own = _sizes(shape, ranks)
-    return ranks.exchange(buffer, sent, received).reshape(shape[0], own)
+    return ranks.all_to_all(buffer, sent, received).reshape(shape[0], own)
 
 
 def to_rows(columns: Array, shape: tuple[int, int], ranks: Ranks) -> Array:
     """Exchange own columns of all rows for own rows of all columns, as `blocks_of_columns`: the way back."""
     received, sent, _ = _sizes(shape, ranks)
-    return ranks.exchange(columns.reshape(-1), sent, received)
+    return ranks.all_to_all(columns.reshape(-1), sent, received)
 
 
 def _sizes(shape: tuple[int, int], ranks: Ranks) -> tuple[list[int], list[int], int]:

@@ -213,9 +213,9 @@ def test_an_iteration_limit_is_told_with_the_residual_of_what_is_returned():
     solved_load = solve_slabs(gap, grid, STEEL, OneRank(), load=0.02)
     problem = SlabProblem(slab_convolution(grid, (STEEL,), OneRank()), gap - gap.min(), np.inf)
     certified = _certified(
-        problem, solved_load.pressure, solved_load.approach - gap.min(), least=gap.min(), load=0.02 * 1.01,
-        reference=lambda displacement: gap.std(), tolerance=1e-8, unmet=Status.STALLED, rows=slice(0, 12),
-        iterations=0, unit=1.0,
+        problem, solved_load.pressure, solved_load.approach - gap.min(), lowest=gap.min(), load=0.02 * 1.01,
+        violation_scale=lambda displacement: gap.std(), tolerance=1e-8, status_if_unmet=Status.STALLED,
+        rows=slice(0, 12), iterations=0, unit=1.0,
     )  # fmt: skip
     assert certified.residual == pytest.approx(0.01 / 1.01, rel=1e-6, abs=0)
     assert certified.status is Status.STALLED

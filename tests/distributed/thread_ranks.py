@@ -28,14 +28,14 @@ class ThreadRanks:
         self._barrier.wait()
         return values
 
-    def all_rows(self, rows: np.ndarray, total: int) -> np.ndarray:
+    def allgather_rows(self, rows: np.ndarray, total: int) -> np.ndarray:
         self.count.reductions += 1
         bounds = edges(total, self.size)
         values = self._all(rows.copy())
         assert [len(part) for part in values] == np.diff(bounds).tolist()
         return np.concatenate(values)
 
-    def exchange(self, blocks: np.ndarray, sent: list[int], received: list[int]) -> np.ndarray:
+    def all_to_all(self, blocks: np.ndarray, sent: list[int], received: list[int]) -> np.ndarray:
         self.count.transposes += 1
         assert blocks.size == sum(sent)
         parts = self._all(np.split(blocks, np.cumsum(sent)[:-1]))
