@@ -169,8 +169,9 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
     if strength is not None and peak > strength:
         notes.append(BUSH_OVER_LIMIT(value=1e-6 * peak, limit=1e-6 * strength, reason="yield"))
     power = friction_power_of(model, film)[0] if film is not None or model.oil is None or model.friction else None
-    if power is not None:
-        notes += _temperature_notes(model, film, bush_temperature(model, power))
+    temperature = model.bulk_temperature if power is None else bush_temperature(model, power)
+    if temperature is not None:
+        notes += _temperature_notes(model, film, temperature)
     if film is not None and film.asperity_share < LEAST_ASPERITY_SHARE and model.specific_wear_rate:
         notes.append(BUSH_WEARS_IN_FILM(share=film.asperity_share))
     journal = None if film is None else journal_of(model, film)

@@ -39,6 +39,7 @@ from bem.notes.elements import (
 from bem.reference_solutions.journal_bearing import journal_film, sommerfeld_number
 from bem.scenes.checks import examine, scene_warnings
 from bem.scenes.checks.overview import common
+from bem.scenes.edit import table_text
 from bem.scenes.load import load_scene
 
 TEMPLATE = tomllib.loads(element_template("plain-bush")) | {"name": "bush"}
@@ -351,6 +352,15 @@ def test_a_liquid_that_boils_or_freezes_is_noted(bulk, reason):
     own = THIN | {"heat_capacity": "4180 J/(kg*K)"}
     assert load_element(WATER | {"oil": own}).model.liquid_limits == element.model.liquid_limits
     assert load_element(WATER | {"oil": THIN}).model.liquid_limits is None
+
+
+def test_a_scene_of_a_bush_says_that_its_liquid_boils(tmp_path):
+    """No film is solved for the scene; the bush's own temperature tells it."""
+    (tmp_path / "hot.toml").write_text(table_text(WATER | {"second": "pom", "bulk_temperature": "120 degC"}))
+    made = run_command("element", "hot.toml", "--scene", "mixed.toml", "--kind", "friction", cwd=tmp_path)
+    said = made.stdout + made.stderr
+    assert "The liquid boils in the bush" in said
+    assert "The bush becomes too hot" in said
 
 
 def test_water_with_glycol_evaporates_before_it_boils():
