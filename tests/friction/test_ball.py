@@ -169,6 +169,23 @@ def test_film_on_its_own_cells_is_itself_and_goes_on_outside():
 
 
 @pytest.mark.internal
+def test_the_gap_beside_a_long_ellipse_is_that_of_its_pressure():
+    """Beyond the film's grid the gap is the parabola and the deflection by the film's pressure, summed here over its
+    cells as of point loads."""
+    contact = PointContact((0.006, 0.2), MODULUS, OIL)
+    film = SolvedPointFilm(contact, (0.2, 0.2), GRID.x, GRID.y, 32).solve(200.0)
+    away, middle = np.linspace(film.x[-1], 2 * film.x[-1], 9), film.y[16:17]
+    seen = sampled_point(film, away, middle, 200.0, contact).thickness[:, 0]
+    assert (np.diff(seen) > 0).all()
+    forces = film.pressure * np.diff(film.x)[0] * np.diff(film.y)[0]
+    distance = np.hypot(away[:, None, None] - film.x[:, None], middle - film.y)
+    pressed = np.where(forces > 0, forces / np.where(distance > 0, distance, np.inf), 0.0).sum(axis=(1, 2))
+    expected = contact.parabola(away, middle)[:, 0] + pressed / (math.pi * MODULUS)
+    # quadrature by cells is within a cell's share of the load at the edge
+    np.testing.assert_allclose(seen - seen[0], expected - expected[0], atol=0.05 * np.ptp(expected))
+
+
+@pytest.mark.internal
 @pytest.mark.parametrize("counted", ["loaded", "patch"])
 def test_table_is_the_film(counted):
     setup = MixedSetup(**BALL | {"oil_volume": counted})
