@@ -409,3 +409,21 @@ def test_a_particle_across_a_periodic_edge_is_drawn_as_one(periodic, cells):
     radii = [np.cbrt(3 * number / (4 * np.pi)) * 1e3 for number in cells]  # of cubes of a micrometre
     titles = [axes.get_title() for axes in drawn(wear._shapes, run).axes]
     assert titles == [f"radius {radius:.0f} nm" for radius in radii]
+
+
+@pytest.mark.parametrize(("contact", "touching"), [({"radii": ["5 mm", "20 mm"]}, 1), ({"radius": "5 mm"}, 3)])
+def test_a_section_under_a_ball_runs_through_its_middle(contact, touching):
+    """The separation under a ball is that of the middle line; spots of another row seemed to float above it."""
+    x, y = 1e-6 * (np.arange(6) - 2.5), 1e-6 * (np.arange(4) - 1.5)
+    pressure = np.zeros((6, 4))
+    pressure[1:4, 0] = pressure[2, 2] = 1e9
+    along_x = {name: np.full(6, 1e-7) for name in ("separation", "film_thickness_patch", "film_pressure_patch")}
+    flat = (("x", "y"), np.zeros((6, 4)))
+    run = run_of(
+        {"contact": contact}, x=x, y=y, height=flat, displacement=flat, pressure=(("x", "y"), pressure),
+        **{name: (("x",), values) for name, values in along_x.items()},
+    )  # fmt: skip
+    (kind,) = (each for each in friction.FIGURES if each.name == "film-section")
+    (upper, _) = drawn(kind.draw, run).axes
+    (spots,) = (line for line in upper.lines if line.get_label() == "in contact")
+    assert spots.get_xdata().size == touching

@@ -32,7 +32,6 @@ from bem.plots.style import (
     prefix,
     speed_axis,
 )
-from bem.quantities import with_unit
 from bem.scenes.records import INPUTS
 
 _COLOURS = (BLUE, VERMILION, GREEN, ORANGE, SKY, PINK, BLACK) * 9
@@ -140,38 +139,31 @@ def _temperatures(run: Any, figure: Figure) -> None:
 
 
 def _section(run: Any, figure: Figure) -> None:
-    """The middle line of the patch at the speed at which film and contact share the load most evenly."""
+    """Draw a line along the sliding at the speed at which film and contact share the load most evenly."""
     data = run.dataset
     x, height = data["x"].values, data["height"].values
     pressure = data["pressure"].values
-    row = int(np.argmax((pressure > 0).sum(axis=0)))  # the line with most contacts
+    row = _row_of_the_separation(run)
     deformed = (height - height.mean() - data["displacement"].values)[:, row]
     plane = data["separation"].values
-    shift = data["film_thickness_patch"].values - plane
     reach = np.abs(x[pressure.any(axis=1)])
     limit = min(2.5 * float(reach.max()), float(np.abs(x).max())) if reach.size else float(np.abs(x).max())
     seen = np.abs(x) <= limit
     factor_x, unit_x = prefix(limit, "m")
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
-    upper.plot(x[seen] * factor_x, plane[seen] * 1e9, color=BLUE, label="flat, as the rough contact sees it")
-    upper.plot(
-        x[seen] * factor_x, data["film_thickness_patch"].values[seen] * 1e9, color=SKY, linestyle="--", label="film"
-    )
-    upper.plot(x[seen] * factor_x, deformed[seen] * 1e9, color="0.25", linewidth=1.0, label="rough surface, deformed")
+    upper.plot(x[seen] * factor_x, plane[seen] * 1e9, color=BLUE, label="upper surface, drawn smooth")
+    film = data["film_thickness_patch"].values
+    upper.plot(x[seen] * factor_x, film[seen] * 1e9, color=SKY, linestyle="--", label="film thickness")
+    upper.plot(x[seen] * factor_x, deformed[seen] * 1e9, color="0.25", linewidth=1.0, label="lower surface, deformed")
     touch = seen & (pressure[:, row] > 0)
     upper.plot(x[touch] * factor_x, deformed[touch] * 1e9, ".", color=VERMILION, markersize=4, label="in contact")
     low = float(deformed[seen].min()) * 1e9
-    high = 1.4e9 * float(np.quantile(data["film_thickness_patch"].values[seen], 0.75))
+    high = 1.4e9 * float(np.quantile(film[seen], 0.75))
     tallest = max(deformed[seen].max(), plane[seen].max()) * 1e9
     upper.set_ylim(low * 1.05, max(high, tallest + 0.35 * (tallest - low)))  # the legend is above
     upper.set_ylabel("height (nm)")
     upper.legend(fontsize=8, ncols=2, loc="upper center")
-    apart = float(shift.mean())
-    upper.set_title(
-        f"mean planes {with_unit(abs(apart), 'm')} {'closer together' if apart > 0 else 'farther apart'} than the film "
-        "is thick",
-        fontsize=8.5,
-    )
+    upper.set_title("the lower surface has the roughness of both", fontsize=8.5)
     lower.plot(x[seen] * factor_x, data["film_pressure_patch"].values[seen] * 1e-6, color=BLUE, label="film")
     lower.plot(
         x[seen] * factor_x,
@@ -184,6 +176,18 @@ def _section(run: Any, figure: Figure) -> None:
     lower.set_ylabel("pressure (MPa)")
     lower.set_ylim(0)
     lower.legend(fontsize=8)
+
+
+def _row_of_the_separation(run: Any) -> int:
+    """Return the row of cells along x whose separation is stored: the middle one of a point contact.
+
+    The separation of a cylinder is that of every row; the row with most contacts shows most there.
+    """
+    pressure = run.dataset["pressure"].values
+    contact = run.scene["contact"]
+    if any(contact.get(name) is not None for name in ("ball", "radii")):
+        return int(pressure.shape[1] // 2)
+    return int(np.argmax((pressure > 0).sum(axis=0)))
 
 
 def _film(run: Any, figure: Figure) -> None:
@@ -275,7 +279,8 @@ FIGURES = (
     ),
     FigureKind(
         "film-section",
-        "A section along sliding: film, separation that the rough contact sees, deformed surface, and pressures.",
+        "A section along sliding: film thickness, gap between both bodies with the roughness of both on the lower one, "
+        "and pressures.",
         ("x", "height", "separation", "film_thickness_patch", "displacement", "pressure", "shown_speed"),
         _section,
         (6.0, 4.8),
