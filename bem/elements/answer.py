@@ -24,7 +24,7 @@ from bem.elements.bush_answer import (
 )
 from bem.elements.cam_follower import CamModel
 from bem.elements.contact import ElementContact
-from bem.elements.element import Element
+from bem.elements.element import AT_MARK, Element
 from bem.elements.element_wear import particles_per_hour, wear_per_hour, worn_volume_rate
 from bem.elements.gear_pair import GearModel
 from bem.elements.gear_scuffing import estimated_bulk, friction_of_gear_tests, scuffing_of, sliding_power
@@ -75,28 +75,35 @@ def friction_power(element: Element, runs: Sequence[Running]) -> FrictionPower:
 
     found = element.found
     known = sorted((one for one in runs if one.converged), key=lambda one: one.contact.place)
-    steady = [one for one in found.contacts if abs(one.slide_roll_ratio) <= 2]
+
+    def steady(one: ElementContact) -> bool:
+        return abs(one.slide_roll_ratio) <= 2
 
     def mean(value: Callable[[Running], float]) -> float:
         """Mean over all places of value per load times load; places on both rings of a bearing keep their own."""
         own = {one.contact: value(one) for one in known}
         at = np.array([one.contact.place for one in known])
         per_load = np.array([value(one) / one.contact.load for one in known])
-        total = sum(own[one] if one in own else one.load * float(np.interp(one.place, at, per_load)) for one in steady)
-        return float(total) / len(found.contacts) * found.at_once
+
+        def power(one: ElementContact) -> float:
+            return own[one] if one in own else one.load * float(np.interp(one.place, at, per_load))
+
+        return found.mean(power, steady) * found.at_once
 
     mixed = None
     if all(one.asperity_share is not None for one in known):
         boundary = element.model.boundary_friction
         mixed = mean(lambda one: _power_with_asperities(one, boundary))
-        rubbing = sum(
-            one.load * abs(one.speeds[0] - one.speeds[1]) for one in found.contacts if abs(one.slide_roll_ratio) > 2
+        rubbing = found.mean(
+            lambda one: one.load * abs(one.speeds[0] - one.speeds[1]), counts=lambda one: not steady(one)
         )
-        mixed = max(mixed, 0.0) + boundary * rubbing / len(found.contacts) * found.at_once
+        mixed = max(mixed, 0.0) + boundary * rubbing * found.at_once
     down = up = None
     if all(one.scatter is not None for one in known):
         down, up = (mean(partial(_scattered, k)) for k in (0, 1))
-    return FrictionPower(mean(lambda one: one.power), mixed, down, up, len(steady) / len(found.contacts))
+    return FrictionPower(
+        mean(lambda one: one.power), mixed, down, up, 1 - found.mean(lambda one: 1.0, lambda one: not steady(one))
+    )
 
 
 def _power_with_asperities(one: Running, boundary: float) -> float:
@@ -314,10 +321,10 @@ def place_words(element: Element, one: ElementContact) -> str:
         return f"{'cam' if isinstance(model, CamModel) else 'crank'} angle {one.name}"
     distance = f"{1e3 * abs(one.place):.3g} mm {'before' if one.place < 0 else 'after'} C"
     for mark, place in element.found.marks.items():
-        if abs(one.place - place) < _AT:
+        if abs(one.place - place) < AT_MARK:
             return f"{mark} ({distance})" if mark != "C" else "C"
         if min(element.found.contacts, key=lambda other: abs(other.place - place)) == one:
-            return f"{mark} ({distance})" if mark != "C" else "C"
+            return f"near {mark} ({distance})"
     return distance
 
 
@@ -356,8 +363,8 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
     return f"{ratio:.3g} ({regime}{touching}), {film}{cool}"
 
 
-_NEAR, _AT = 0.02, 1e-9
-"""Distance from a marked place over the path's length up to which a film stands for it; up to which it is there [m]."""
+_NEAR = 0.02
+"""Distance from a marked place over the path's length up to which a film stands for it."""
 
 
 def _marked(element: Element, runs: Sequence[Running]) -> list[tuple[str, str]]:
@@ -372,7 +379,7 @@ def _marked(element: Element, runs: Sequence[Running]) -> list[tuple[str, str]]:
         said.append(f"film friction {abs(one.friction):.2g}")
         said += [] if one.oil is None else [f"oil {one.oil - ZERO_CELSIUS:.3g} °C"]
         said += [] if one.surface is None else [f"surface {one.surface - ZERO_CELSIUS:.3g} °C"]
-        exact = abs(one.contact.place - place) < _AT
+        exact = abs(one.contact.place - place) < AT_MARK
         rows.append((f"at {mark}" if exact else f"near {mark}", ", ".join(said)))
     return rows
 

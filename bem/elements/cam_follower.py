@@ -72,7 +72,7 @@ class CamModel(ElementModel):
 
     def contacts(self) -> Contacts:
         """From flank to flank, where the follower is pressed down."""
-        found, lost = [], 0
+        found, lost, weights = [], 0, []
         for i in range(self.points):
             angle = self.half_angle * (2 * i / (self.points - 1) - 1)
             lift, second = self.lift_at(angle)
@@ -81,14 +81,17 @@ class CamModel(ElementModel):
                 lost += 1
                 continue
             speeds = (self.speed * self.curvature(angle), self.speed * second)
+            weights.append((0.5 if i in (0, self.points - 1) else 1.0) / (self.points - 1))
             found.append(
                 ElementContact(
                     f"{math.degrees(angle):.3g} deg", angle, load, (self.curvature(angle), math.inf), speeds,
                     length=self.width,
                 )
             )  # fmt: skip
-        turns, pressed = self.speed / (2 * math.pi), self.half_angle / math.pi * len(found) / self.points
-        return Contacts(tuple(found), "angle", "rad", self._notes(found, lost), pressed, (turns, None))
+        turns, pressed = self.speed / (2 * math.pi), sum(weights)
+        nodes = tuple((one, weight / pressed) for one, weight in zip(found, weights, strict=True))
+        notes, at_once = self._notes(found, lost), self.half_angle / math.pi * pressed
+        return Contacts(tuple(found), "angle", "rad", notes, at_once, (turns, None), nodes=nodes)
 
     def _notes(self, found: list[ElementContact], lost: int) -> tuple[Note, ...]:
         notes = []

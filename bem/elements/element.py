@@ -91,6 +91,8 @@ _SHORT = {
     **dict.fromkeys(("polymer-bush", "polymer-bushing", "polymer-bearing"), "plain-bush"),
     **dict.fromkeys(("plain-bearing", "sleeve-bearing", "sliding-bearing"), "plain-bush"),
 }
+AT_MARK = 1e-9
+"""Distance from a marked place up to which a contact is there [m]."""
 _ROUGHNESS = ("ra", "rq", "sq", "sa", "rz")
 """Keys that users expect in an element's file for its roughness."""
 KINDS = ("traction", "contact", "point-film", "friction", "running-in", "surface-temperature", "running-in-life")
@@ -234,11 +236,12 @@ class Element:
         return csv_text({**self.columns(), **more, **marks})
 
     def letters(self) -> list[str]:
-        """Return the letters of the marked places at the contacts nearest to them, empty elsewhere."""
+        """Return the letters of the marked places at the nearest contacts, "C" or "near C"; empty elsewhere."""
         letters = [""] * len(self.found.contacts)
         for name, place in self.found.marks.items():
             nearest = min(range(len(letters)), key=lambda i: abs(self.found.contacts[i].place - place))
-            letters[nearest] = f"{letters[nearest]} {name}".strip()
+            exact = abs(self.found.contacts[nearest].place - place) < AT_MARK
+            letters[nearest] = f"{letters[nearest]} {'' if exact else 'near '}{name}".strip()
         return letters
 
     def path(self) -> dict[str, list[float]]:

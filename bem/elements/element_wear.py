@@ -38,9 +38,9 @@ def worn_volume_rate(element: Element) -> float:
     once; 0 without a wear rate.
     """
     found = element.found
-    slid = [one.load * abs(one.speeds[0] - one.speeds[1]) for one in found.contacts]
+    slid = found.mean(lambda one: one.load * abs(one.speeds[0] - one.speeds[1]))
     bodies = 1 if isinstance(element.model, PlainBushModel) else 2
-    return bodies * (element.model.specific_wear_rate or 0.0) * sum(slid) / len(slid) * found.at_once
+    return bodies * (element.model.specific_wear_rate or 0.0) * slid * found.at_once
 
 
 def particles_per_hour(element: Element) -> str:

@@ -149,9 +149,9 @@ def estimated_bulk(element: Element) -> float | None:
 
 def mean_flash_temperature(element: Element, friction: float) -> float | None:
     """Return the mean flash temperature over the path of contact [K] under one friction coefficient."""
-    found = [_flash(element, one, friction) for one in element.found.contacts]
-    known = [one for one in found if one is not None]
-    return sum(known) / len(known) if known else None
+    if _flash(element, element.found.contacts[0], friction) is None:
+        return None
+    return element.found.mean(lambda one: _flash(element, one, friction) or 0.0)
 
 
 def _flash(element: Element, contact: ElementContact, friction: float | None) -> float | None:
@@ -175,5 +175,5 @@ def _viscosity_at_40(element: Element) -> float | None:
 
 def sliding_power(element: Element, friction: float) -> float:
     """Return the friction power of the gear mesh [W] under one friction coefficient at all places."""
-    slid = [one.load * abs(one.speeds[0] - one.speeds[1]) for one in element.found.contacts]
-    return friction * sum(slid) / len(slid) * element.found.at_once
+    found = element.found
+    return friction * found.mean(lambda one: one.load * abs(one.speeds[0] - one.speeds[1])) * found.at_once

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, ClassVar, Literal, Self
 
@@ -37,6 +37,8 @@ class Contacts:
     marks : places of the path that have a name, in its order: "A" to "E" of a gear pair. marked : their contacts, which
         `contacts` need not have.
     geometry : sentences with the element's own figures: path of contact, load sharing.
+    nodes : contacts and weights of a quadrature of means along the path or the angle, weights of one in all; none where
+        `contacts` are evenly spaced over a whole cycle, or are the parts of a sum, and count alike.
     """
 
     contacts: tuple[ElementContact, ...]
@@ -48,6 +50,16 @@ class Contacts:
     marks: Mapping[str, float] = field(default_factory=dict)
     marked: Mapping[str, ElementContact] = field(default_factory=dict)
     geometry: tuple[str, ...] = ()
+    nodes: tuple[tuple[ElementContact, float], ...] = ()
+
+    def mean(
+        self,
+        value: Callable[[ElementContact], float],
+        counts: Callable[[ElementContact], bool] = lambda one: True,
+    ) -> float:
+        """Return the mean over all contacts of a value, zero where `counts` is False."""
+        nodes = self.nodes or tuple((one, 1 / len(self.contacts)) for one in self.contacts)
+        return sum(weight * value(one) for one, weight in nodes if counts(one))
 
 
 class HeatBalanceScene(Table):

@@ -70,10 +70,16 @@ def test_wear_is_local_archard_over_one_pass(gears):
 def test_the_whole_gear_pair(gears):
     element, runs = gears
     said = dict(answer(element, runs))
-    power = np.mean([one.power for one in runs]) * element.found.at_once
+    power = friction_power(element, runs).film
     assert f"; {power:.3g} W if oil films carry the whole load" in said["friction power"]
     assert "W by a fit to gear tests" in said["friction power"].split(";")[0]
-    assert friction_power(element, runs).film == pytest.approx(power, rel=1e-12)
+    at = [one.contact.place for one in runs]  # A, B, C, D and E
+    per_load = [one.power / one.contact.load for one in runs]
+    s = np.linspace(at[0], at[-1], 20001)
+    share = np.array([path_of_contact(element.model).share(path_of_contact(element.model).pitch + one) for one in s])
+    normal = runs[1].contact.load
+    mean = np.mean(normal * share * np.interp(s, at, per_load)) * element.found.at_once
+    assert power == pytest.approx(mean, rel=1e-3)
     assert f" {100 * (1 - power / 47124):.2f} % of 47.1 kW" in said["efficiency"]
     assert 0.003 < power / (200 * 2250 * np.pi / 30) < 0.03  # gears lose some per cent at most, films some tenths
     assert f"safety factor {min(one.film_ratio for one in runs) / 0.25:.3g}" in said["micropitting"]
@@ -98,7 +104,7 @@ def test_worn_volume_is_that_of_the_depths_over_both_flanks():
         for depth, along, base in zip(depths, (s, path.line - s), path.base_radii, strict=True)
     ]
     rate = worn_volume_rate(element)
-    assert rate == pytest.approx(sum(volumes), rel=5e-3, abs=0)  # the mean over the places counts both ends whole
+    assert rate == pytest.approx(sum(volumes), rel=2e-3, abs=0)  # trapezoids across the jumps of load at B and D
     said = dict(answer(element, [run_contact(element, element.worst())]))["particles per hour"]
     assert f"{3600e9 * rate:.3g} mm^3" in said
     assert f"{3600 * rate / 0.02e-18:.3g} of 0.02 um^3" in said
@@ -145,8 +151,8 @@ def test_what_is_not_known_is_said():
     assert "of the positions are left out of the former: surfaces that run against" in said["friction power"]
     power = friction_power(cam, runs)
     nose = [one for one in cam.found.contacts if abs(one.slide_roll_ratio) > 2]
-    rubbed = 0.12 * sum(one.load * abs(one.speeds[0] - one.speeds[1]) for one in nose) / 9 * cam.found.at_once
-    assert power.counted == pytest.approx(1 - len(nose) / 9)
+    rubbed = 0.12 * sum(one.load * abs(one.speeds[0] - one.speeds[1]) for one in nose) / 8 * cam.found.at_once
+    assert power.counted == pytest.approx(1 - len(nose) / 8)
     assert power.with_asperities > power.film + 0.9 * rubbed > power.film
     assert "thermal constants of a body are missing" in said["temperatures"]
     assert "give specific_wear_rate" in said["wear per hour"]

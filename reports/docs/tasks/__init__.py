@@ -124,14 +124,14 @@ def of_element(name: str) -> dict[str, float]:
 
 def of_operation(name: str) -> dict[str, float]:
     """Return the numbers of a machine element with its thermal films, as `bem element --running` shows them."""
-    from bem.elements.answer import balance_heat
+    from bem.elements.answer import balance_heat, friction_power
     from bem.elements.element import load_element
     from bem.elements.running import run_all
 
     element = balance_heat(load_element(HERE / name / ELEMENTS[name]))
     runs = run_all(element)
     return {
-        "friction_power_W": sum(run.power for run in runs) / len(runs) * element.found.at_once,
+        "friction_power_W": friction_power(element, runs).film,
         "minimum_film_solved_nm": 1e9 * min(run.minimum_film for run in runs),
         "highest_surface_temperature_C": max(run.surface or 0.0 for run in runs) - 273.15,
     }
