@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 
 from bem import InputError, load_scene
 from bem.cli import build
-from bem.elements.element import MODELS, NOT_HERE, TITLES, element_template, load_element
+from bem.elements.element import MODELS, NOT_MODELLED, TITLES, element_template, load_element
 from bem.lubrication.oils.catalogue import find_oil, oil_names
 from bem.materials import CATALOGUE
 from bem.scenes.kind import get_kind, kind_names
@@ -119,12 +119,12 @@ def test_a_water_glycol_runs_with_the_coefficient_that_its_message_names():
     assert f'{key} = "{value}"' in said
 
 
-@pytest.mark.parametrize("word", NOT_HERE)
+@pytest.mark.parametrize("word", NOT_MODELLED)
 def test_what_is_not_modelled_has_its_own_answer(word):
     """The words are listed twice, in the command without loading the elements."""
     code, said = bem("new", word)
     assert code == 2
-    assert NOT_HERE[word] in said
+    assert NOT_MODELLED[word] in said
 
 
 @pytest.mark.parametrize(("word", "name"), [("PEEK", "peek"), ("nylon", "pa66"), ("Teflon", "ptfe"), ("pom", "pom")])

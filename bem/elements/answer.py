@@ -80,7 +80,10 @@ def friction_power(element: Element, runs: Sequence[Running]) -> FrictionPower:
         return abs(one.slide_roll_ratio) <= 2
 
     def mean(value: Callable[[Running], float]) -> float:
-        """Mean over all places of value per load times load; places on both rings of a bearing keep their own."""
+        """Return the mean over all places of value per load times load.
+
+        Places that are on both rings of a bearing keep their own values.
+        """
         own = {one.contact: value(one) for one in known}
         at = np.array([one.contact.place for one in known])
         per_load = np.array([value(one) / one.contact.load for one in known])
@@ -246,6 +249,7 @@ def _lost(element: Element, solved: Sequence[Running]) -> Rows:
 
 
 def _bush(element: Element, model: PlainBushModel, runs: Sequence[Running], solved: Sequence[Running]) -> Rows:
+    """Return the rows of the answer of a bush."""
     film_of_it = film_of_bush(element, runs)
     said = None if film_of_it is None else thick_film_words(model, film_of_it)
     film = [("lambda ratio", said or _film(element, runs))] if runs else []
@@ -344,6 +348,7 @@ def contact_words(element: Element, one: ElementContact) -> str:
 
 
 def _film(element: Element, runs: Sequence[Running]) -> str:
+    """Return the lambda ratio of the thinnest film in words, with its regime and the load share of asperities."""
     thinnest = min(runs, key=lambda one: one.minimum_film)
     film = f"minimum film {with_unit(thinnest.minimum_film, 'm')} at {place_words(element, thinnest.contact)}"
     if thinnest.film_ratio is None:
@@ -395,6 +400,7 @@ def _ratio_at_oil(element: Element, one: Running) -> float:
 
 
 def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str, str]]:
+    """Return the rows of friction power, coefficient and losses."""
     power, model = friction_power(element, runs), element.model
     film = f"{plain_digits(power.film, 3)} W if oil films carry the whole load"
     if power.with_asperities is None or power.with_asperities <= 1.01 * power.film:
@@ -440,6 +446,7 @@ def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str,
 
 
 def _temperatures(element: Element, runs: Sequence[Running]) -> str:
+    """Return the temperatures of oil, surfaces and bodies in words."""
     model = element.model
     assert model.oil is not None
     if model.oil.temperature is None:
@@ -471,6 +478,7 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
 
 
 def _scuffing(element: Element, runs: Sequence[Running]) -> str:
+    """Return the safety against scuffing of a gear pair in words."""
     model = element.model
     assert isinstance(model, GearModel)
     found = scuffing_of(element, runs)
@@ -498,7 +506,7 @@ def _scuffing(element: Element, runs: Sequence[Running]) -> str:
 
 
 def _micropitting(element: Element, runs: Sequence[Running]) -> str:
-    """Safety of the lambda ratio, as ISO/TS 6336-22 judges: the smallest over what a test permits."""
+    """Return the safety of the lambda ratio, as ISO/TS 6336-22 judges: the smallest over what a test permits."""
     thinnest = min(runs, key=lambda one: one.minimum_film)
     if thinnest.film_ratio is None:
         return "not known: give rms_roughness, of both surfaces together"

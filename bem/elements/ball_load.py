@@ -62,7 +62,7 @@ def share_with_axial_load(
         return BallLoads(loads, np.arctan2(axial_shift, along), radial_shift, axial_shift)
 
     def carried(axial_shift: float) -> BallLoads:
-        """Loads under the radial load at an axial shift: the radial force rises with the radial shift."""
+        """Return the loads under the radial load at an axial shift: the radial force rises with the radial shift."""
 
         def missing(radial_shift: float) -> float:
             found = at(radial_shift, axial_shift)

@@ -231,6 +231,7 @@ def _liquid_lost(model: PlainBushModel, temperature: float, rise: float) -> Note
 
 
 def _pv(model: PlainBushModel) -> str:
+    """Return pressure times speed of a bush in words, beside its limit."""
     pv = 1e-6 * model.mean_pressure * model.sliding_speed
     mean = "mean " if model.oscillation is not None else ""
     said = f"{pv:.3g} MPa m/s at a {mean}sliding speed of {with_unit(model.sliding_speed, 'm/s')}"
@@ -240,6 +241,7 @@ def _pv(model: PlainBushModel) -> str:
 
 
 def _temperature(model: PlainBushModel, power: float | None) -> str:
+    """Return the temperature of a bush in words, beside its limit."""
     if power is None and model.bulk_temperature is None:
         return "not known: they follow from the friction"
     temperature = bush_temperature(model, power or 0.0) - ZERO_CELSIUS
@@ -266,6 +268,7 @@ def _temperature(model: PlainBushModel, power: float | None) -> str:
 
 
 def _wear(model: PlainBushModel, film: FilmOfBush | None) -> str:
+    """Return the wear of a bush in words."""
     rate = model.specific_wear_rate
     if rate is None:
         return "not known: give specific_wear_rate of the bush, measured against this shaft, dry or in this lubricant"
@@ -290,6 +293,7 @@ def wear_life(model: PlainBushModel) -> tuple[float, float]:
 
 
 def _life(model: PlainBushModel) -> str:
+    """Return the wear life of a bush in words."""
     depth, name = worn_out_depth(model)
     assumed = "" if name == "permitted_wear" else f" (the {name}; give permitted_wear)"
     distance, lasts = wear_life(model)

@@ -58,7 +58,7 @@ class CamModel(ElementModel):
         return self.half_angle * (i / 200 - 1)
 
     def lift_at(self, angle: float) -> tuple[float, float]:
-        """Lift [m] and its second derivative [m/rad^2] at an angle from the nose."""
+        """Return the lift [m] and its second derivative [m/rad^2] at an angle from the nose."""
         t = angle / self.half_angle
         if abs(t) >= 1:
             return 0.0, 0.0
@@ -66,12 +66,12 @@ class CamModel(ElementModel):
         return self.lift * q**3, self.lift * (24 * t * t * q - 6 * q**2) / self.half_angle**2
 
     def curvature(self, angle: float) -> float:
-        """Radius of the cam at the contact [m]."""
+        """Return the radius of the cam at the contact [m]."""
         lift, second = self.lift_at(angle)
         return self.base_radius + lift + second
 
     def contacts(self) -> Contacts:
-        """From flank to flank, where the follower is pressed down."""
+        """Return the contacts from flank to flank, where the follower is pressed down."""
         found, lost, weights = [], 0, []
         for i in range(self.points):
             angle = self.half_angle * (2 * i / (self.points - 1) - 1)

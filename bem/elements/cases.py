@@ -35,7 +35,7 @@ JOURNAL = "journal_bearing_film_estimate [m]"
 
 
 def load_cases(source: str | Path, rows: str | Path) -> tuple[Element, ...]:
-    """An element for each row of a text file with columns, units behind their names.
+    """Return an element for each row of a text file with columns, units behind their names.
 
     Raises
     ------

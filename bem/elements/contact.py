@@ -44,12 +44,12 @@ class ElementContact:
 
     @property
     def radius(self) -> float:
-        """Of relative curvature along the motion [m]."""
+        """Radius of relative curvature along the motion [m]."""
         return 1 / (1 / self.radii[0] + 1 / self.radii[1])
 
     @property
     def mean_speed(self) -> float:
-        """That entrains the oil [m/s]."""
+        """Mean speed of the surfaces, which entrains the oil [m/s]."""
         return 0.5 * (self.speeds[0] + self.speeds[1])
 
     @property
@@ -59,13 +59,13 @@ class ElementContact:
         return difference / self.mean_speed if self.mean_speed else math.copysign(math.inf, difference)
 
     def hertz(self, modulus: float) -> LineContact | PointContact:
-        """The smooth contact, with the contact modulus [Pa]."""
+        """Return the smooth contact by Hertz, with the contact modulus [Pa]."""
         if self.length is not None:
             return cylinder_contact(radius=self.radius, contact_modulus=modulus, load=self.load / self.length)
         return ellipse_contact(radii=(self.radius, self.across), contact_modulus=modulus, load=self.load)
 
     def half_width(self, modulus: float) -> float:
-        """Of the contact along the motion [m]."""
+        """Return the half-width of the contact along the motion [m]."""
         found = self.hertz(modulus)
         return found.half_width if isinstance(found, LineContact) else found.semi_axes[0]
 
@@ -106,7 +106,7 @@ class ElementContact:
         return max(hard, soft, MartinFilm(load, self.radius, viscosity, speed).minimum_thickness)
 
     def rigid_film(self, viscosity: float) -> InletFilm:
-        """Of a line whose bodies stay rigid, in oil of a viscosity [Pa s] up to its inlet; something is entrained."""
+        """Return the film of a line of rigid bodies, in oil of a viscosity [Pa s]; the mean speed is not zero."""
         from bem.reference_solutions.line_film import InletFilm
 
         assert self.length is not None

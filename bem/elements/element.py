@@ -63,13 +63,13 @@ _OTHER_GEARS = (
     "Only external spur and helical gears are elements. Give load, radius and speeds along the path of contact to "
     "kind traction as [along], from a .csv file."
 )
-NOT_HERE = {
+NOT_MODELLED = {
     **dict.fromkeys(("journal-bearing", "hydrodynamic-bearing"), _JOURNAL),
     **dict.fromkeys(("seal", "seals", "lip-seal"), _SEAL),
     **dict.fromkeys(("worm-gear", "bevel-gear", "hypoid-gear", "internal-gear", "planetary-gear"), _OTHER_GEARS),
     "grease": _GREASE,
 }
-"""Words for what the program does not model: what it can do instead."""
+"""Words for what the program does not model, each with what it can do instead."""
 TITLES = {
     "rolling-bearing": "ball or roller bearing: film, friction, rating life (ISO 281), contacts of both rings",
     "gear-pair": "spur or helical gears: film, losses, temperatures, scuffing along the path of contact",
@@ -78,7 +78,7 @@ TITLES = {
     "plain-bush": "shaft in a bush, dry or lubricated: contact angle, pressure, p v, film, temperature, wear life",
 }
 """A line about each element."""
-_SHORT = {
+_ALIASES = {
     "bearing": "rolling-bearing",
     "gear": "gear-pair",
     "gears": "gear-pair",
@@ -98,8 +98,9 @@ _ROUGHNESS = ("ra", "rq", "sq", "sa", "rz")
 KINDS = ("traction", "contact", "point-film", "friction", "running-in", "surface-temperature", "running-in-life")
 """Kinds of scene that are made of a contact."""
 MIXED = ("friction", "running-in")
+"""Kinds of scene in which the oil film and the rough surfaces share the load, besides `LIFE`."""
 LIFE = "running-in-life"
-"""Those in which the oil film and the rough surfaces share the load."""
+"""Kind of scene of a life in which they share the load and wear."""
 
 
 @dataclass(frozen=True)
@@ -124,7 +125,7 @@ class Element:
         return contact_modulus(*self.bodies)
 
     def worst(self) -> ElementContact:
-        """That with the highest pressure.
+        """Return the contact of the highest pressure along the path.
 
         Raises
         ------
@@ -169,7 +170,7 @@ class Element:
         return self.model.film_oil
 
     def _oil_table(self) -> dict[str, Any]:
-        """Table of the oil that comes into the contacts."""
+        """Return the table of the oil as it comes into the contacts."""
         table = dict(self.table["oil"])
         if self.model.bulk_temperature is None:
             return table
@@ -181,7 +182,7 @@ class Element:
         return InputError(f"{self.model.name}: no contact is left: {'; '.join(self.found.notes[:1])}")
 
     def thinnest(self) -> ElementContact:
-        """That with the thinnest film; InputError without an oil, or where the bodies touch nowhere."""
+        """Return the contact of the thinnest film; InputError without an oil, or where the bodies touch nowhere."""
         return self._thinnest_of(self.found.contacts)
 
     def thinnest_steady(self) -> ElementContact:
@@ -195,6 +196,7 @@ class Element:
         return self._thinnest_of(steady or self.found.contacts)
 
     def _thinnest_of(self, contacts: Sequence[ElementContact]) -> ElementContact:
+        """Return the contact of the thinnest film of some contacts; raises as `thinnest`."""
         if self.model.oil is None:
             raise InputError(f"{self.model.name}: no oil is given, so no film is the thinnest; allowed: a table [oil]")
         if not self.found.contacts:
@@ -203,7 +205,7 @@ class Element:
         return min(contacts, key=lambda one: one.minimum_film(self.modulus, oil))
 
     def columns(self) -> dict[str, list[float]]:
-        """All contacts as columns, units in the names: what a scene over a path reads, then Hertz' contact and film."""
+        """Return all contacts as columns, units in the names: keys of a scene over a path, Hertz' contact and film."""
         contacts, modulus = self.found.contacts, self.modulus
         found = {
             f"{self.found.along} [{self.found.along_unit}]": [one.place for one in contacts],
@@ -231,7 +233,7 @@ class Element:
         return found
 
     def csv(self, more: Mapping[str, Sequence[float]] = MappingProxyType({})) -> str:
-        """`columns`, and more of them, as comma-separated text; on a path with marks a column of their letters."""
+        """Return `columns`, and more of them, as comma-separated text, with a column of letters if there are marks."""
         marks = {"mark": self.letters()} if self.found.marks else {}
         return csv_text({**self.columns(), **more, **marks})
 
@@ -245,7 +247,7 @@ class Element:
         return letters
 
     def path(self) -> dict[str, list[float]]:
-        """What a scene of kind traction reads as `along`: a row for each place, in SI units.
+        """Return the table `along` of a scene of kind traction: a row for each place, in SI units.
 
         Raises
         ------
@@ -263,7 +265,7 @@ class Element:
         }
 
     def path_csv(self) -> str:
-        """`path` as the file that a scene's `along = { path = ... }` names."""
+        """Return `path` as the file that a scene's `along = { path = ... }` names."""
         columns = self.path()
         units = {"position": "m", "radius": "m", "load": "N", "lower_speed": "m/s", "upper_speed": "m/s"}
         lines = [",".join(f"{name} [{units[name]}]" for name in columns)]
@@ -271,7 +273,7 @@ class Element:
         return "\n".join(lines) + "\n"
 
     def path_scene(self) -> dict[str, Any]:
-        """The table of a scene of kind traction over the whole path, as the built-in scene gear-flank is.
+        """Return the table of a scene of kind traction over the whole path, as the built-in scene gear-flank is.
 
         Raises
         ------
@@ -335,7 +337,7 @@ class Element:
         return self.model.first.build(), self.model.second.build()
 
     def scene(self, contact: ElementContact, kind: str) -> dict[str, Any]:
-        """The table of a scene of one contact: body 1 the lower one.
+        """Return the table of a scene of one contact; body 1 is the lower one.
 
         Raises
         ------
@@ -357,7 +359,7 @@ class Element:
         }
         bodies = self._body_tables()
         if kind == "contact":
-            made = base | self._dry(contact, bodies)
+            made = base | self._dry_scene(contact, bodies)
             if contact.length is not None:
                 slice_width = with_unit(made["grid"]["lengths"][1], "m")
                 made["description"] += f"; a slice of {slice_width} of its {with_unit(contact.length, 'm')}"
@@ -368,7 +370,7 @@ class Element:
                 base["description"] += "; the bush, at rest, creeps so that the slice has a steady temperature"
                 return base | self._rubbing_bush(self.model, contact, bodies)
             return base | rubbing_scene(self.model, contact, bodies, self._patch_modulus)
-        film = self._film(contact, bodies, kind)
+        film = self._film_scene(contact, bodies, kind)
         if kind == LIFE:
             film, more = life_scene(self.model, contact, bodies, self._oil_table(), self._patch_modulus)
             film |= {"thermal": "off"} if self._layered else {}
@@ -407,7 +409,7 @@ class Element:
 
     @property
     def _layered(self) -> bool:
-        """True if body 2 is a layer: a bush with a wall."""
+        """Whether body 2 is a layer: a bush with a wall."""
         return isinstance(self.model, PlainBushModel) and self.model.wall is not None
 
     @property
@@ -416,8 +418,10 @@ class Element:
         return self.model.film_modulus if isinstance(self.model, PlainBushModel) else self.modulus
 
     def _film_body_tables(self) -> dict[str, Any]:
-        """Tables of both bodies of a film between smooth surfaces: the wall of a bush as a half-space on which the
-        contact is as wide."""
+        """Return the tables of both bodies of a film between smooth surfaces.
+
+        The wall of a bush is a half-space on which the contact is as wide.
+        """
         upper: Any = self.table["second"]
         if isinstance(self.model, PlainBushModel) and self.model.wall is not None:
             shaft, bush = self.bodies
@@ -427,14 +431,15 @@ class Element:
         return {"lower": {"material": self.table["first"]}, "upper": {"material": upper}}
 
     def _body_tables(self) -> dict[str, Any]:
-        """Tables of both bodies of a scene with their materials; the wall of a bush is a layer on its housing."""
+        """Return the tables of both bodies with their materials; the wall of a bush is a layer on its housing."""
         upper = {"material": self.table["second"]}
         if isinstance(self.model, PlainBushModel) and self.model.wall is not None:
             layer = {**upper, "thickness": self.model.wall}
             upper = {"material": self.table.get("housing", HOUSING), "layer": layer}
         return {"lower": {"material": self.table["first"]}, "upper": upper}
 
-    def _film(self, contact: ElementContact, bodies: dict[str, Any], kind: str) -> dict[str, Any]:
+    def _film_scene(self, contact: ElementContact, bodies: dict[str, Any], kind: str) -> dict[str, Any]:
+        """Return the keys of a scene of one contact with an oil film; raises as `scene`."""
         if self.model.oil is None:
             raise InputError(f"{self.model.name}: a film needs an oil; allowed: a table [oil], or kind contact")
         ratio = contact.slide_roll_ratio
@@ -442,7 +447,7 @@ class Element:
             raise InputError(
                 f"{contact.name}: the surfaces run against each other (speeds {contact.speeds[0]:.3g} and "
                 f"{contact.speeds[1]:.3g} m/s), where no steady film of kind {kind} is; allowed: kind contact, or "
-                f"a place of the table where they do not: {self._with_film()}"
+                f"a place of the table where they do not: {self._numbers_with_film()}"
             )
         if kind == "friction" and isinstance(self.model, PlainBushModel):
             return bush_scene(self.model, contact, self._oil_table(), self.table["first"], self.table["second"])
@@ -477,8 +482,8 @@ class Element:
                 f"{' and '.join(cold)}"
             )
 
-    def _with_film(self) -> str:
-        """Numbers of the places whose surfaces do not run against each other: "1 to 20, 54 to 73"."""
+    def _numbers_with_film(self) -> str:
+        """Return the numbers of the places whose surfaces do not run against each other: "1 to 20, 54 to 73"."""
         runs: list[list[int]] = []
         for number, one in enumerate(self.found.contacts, start=1):
             if abs(one.slide_roll_ratio) <= 2:
@@ -488,7 +493,8 @@ class Element:
                     runs.append([number])
         return ", ".join(f"{run[0]} to {run[-1]}" if len(run) > 1 else str(run[0]) for run in runs) or "none"
 
-    def _dry(self, contact: ElementContact, bodies: dict[str, Any]) -> dict[str, Any]:
+    def _dry_scene(self, contact: ElementContact, bodies: dict[str, Any]) -> dict[str, Any]:
+        """Return the keys of a scene of kind contact of one contact: grid, bodies, shape and load."""
         hertz = contact.hertz(self.modulus)
         half = contact.half_width(self._patch_modulus)
         if contact.length is not None:
@@ -513,7 +519,7 @@ def rpm(speed: float) -> float:
 
 
 def csv_text(columns: Mapping[str, Sequence[float | str]]) -> str:
-    """Columns of one length as comma-separated text, numbers to the last digit."""
+    """Return columns of one length as comma-separated text, numbers to the last digit."""
     sink = io.StringIO()
     writer = csv.writer(sink, lineterminator="\n")
     writer.writerow(columns)
@@ -523,7 +529,7 @@ def csv_text(columns: Mapping[str, Sequence[float | str]]) -> str:
 
 
 def load_element(source: str | Path | Mapping[str, Any]) -> Element:
-    """An element from its TOML file, or from a table.
+    """Return an element from its TOML file, or from a table.
 
     Raises
     ------
@@ -536,8 +542,8 @@ def load_element(source: str | Path | Mapping[str, Any]) -> Element:
             f"{table.get('name')}: a scene of kind {show(table['kind'])}, not a machine element. Use `bem plan` and "
             "`bem run`."
         )
-    if kind in NOT_HERE:
-        raise InputError(f'element = "{kind}": {NOT_HERE[kind]}')
+    if kind in NOT_MODELLED:
+        raise InputError(f'element = "{kind}": {NOT_MODELLED[kind]}')
     if kind not in MODELS:
         listed = ", ".join(f'"{name}"' for name in MODELS)
         found = show(table.get("element"))
@@ -562,7 +568,7 @@ def _of_element(kind: str, message: str) -> str:
 
 
 def read_element(path: str | Path) -> dict[str, Any]:
-    """The table of an element's TOML file, under the file's name where it says none.
+    """Return the table of an element's TOML file, under the file's name where it says none.
 
     Raises
     ------
@@ -581,21 +587,21 @@ def read_element(path: str | Path) -> dict[str, Any]:
 
 
 def element_template(name: str) -> str:
-    """A commented file of an element, to start from.
+    """Return a commented file of an element, to start from.
 
     Raises
     ------
     InputError : none of that name, and why.
     """
     word = name.strip().lower().replace("_", "-").replace(" ", "-")
-    word = _SHORT.get(word, word)
-    if word in NOT_HERE:
-        raise InputError(NOT_HERE[word])
+    word = _ALIASES.get(word, word)
+    if word in NOT_MODELLED:
+        raise InputError(NOT_MODELLED[word])
     if word not in MODELS:
         raise InputError(f'"{name}": no machine element{nearest(word, MODELS)}; allowed: {", ".join(MODELS)}')
     return without_description((resources.files("bem.elements") / "templates" / f"{word}.toml").read_text("utf-8"))
 
 
 def degrees(contact: ElementContact, unit: str) -> str:
-    """Where a contact is, for people."""
+    """Return the place of a contact in degrees or millimetres, for people."""
     return f"{math.degrees(contact.place):.1f} deg" if unit == "rad" else f"{1e3 * contact.place:.4g} mm"

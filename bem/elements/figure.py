@@ -107,6 +107,7 @@ def _branches(element: Element, contacts: Sequence[Any]) -> dict[str, list[int]]
 
 
 def _loads(element: Element, axes: Any) -> None:
+    """Draw load and Hertz pressure over the path."""
     contacts = element.found.contacts
     right = axes.twinx()
     for number, (ring, rows) in enumerate(_branches(element, contacts).items()):
@@ -124,6 +125,7 @@ def _loads(element: Element, axes: Any) -> None:
 
 
 def _films(element: Element, known: Sequence[Running], axes: Any) -> None:
+    """Draw minimum films, and marks of the path."""
     columns, contacts = element.columns(), element.found.contacts
     if "minimum_film [m]" not in columns:
         axes.set_ylabel("no oil is given")
@@ -144,6 +146,7 @@ def _films(element: Element, known: Sequence[Running], axes: Any) -> None:
 
 
 def _friction(element: Element, known: Sequence[Running], axes: Any) -> None:
+    """Draw friction over the path."""
     right = axes.twinx()
     contacts = [one.contact for one in known]
     for number, rows in enumerate(_branches(element, contacts).values()):
@@ -158,6 +161,7 @@ def _friction(element: Element, known: Sequence[Running], axes: Any) -> None:
 
 
 def _temperatures(element: Element, known: Sequence[Running], axes: Any) -> None:
+    """Draw temperatures of oil and surfaces over the path."""
     contacts = [one.contact for one in known]
     for number, rows in enumerate(_branches(element, contacts).values()):
         x = [_abscissa(element, contacts[i].place) for i in rows]

@@ -106,7 +106,7 @@ class GearModel(ElementModel):
         return normal * path.base_radii[0] * inclined
 
     def contacts(self) -> Contacts:
-        """By distance from the pitch point C: from A, where the wheel's tip comes in, to E, the end of the pinion's."""
+        """Return the contacts by distance from the pitch point C: from A, the wheel's tip, to E, the pinion's."""
         path = path_of_contact(self)
         inclined = math.cos(path.base_helix)
         normal = self.pinion_torque / (path.base_radii[0] * inclined)
@@ -159,12 +159,12 @@ class Path:
 
     @property
     def contact_ratio(self) -> float:
-        """Of the transverse section: so many lines as long as the face is wide touch at a time, on the mean."""
+        """Transverse contact ratio: mean number of lines, as long as the face is wide, that touch at a time."""
         return (self.end - self.start) / self.base_pitch
 
     @property
     def overlap(self) -> float:
-        """How far lines of contact lean along the path while they cross the face [m]."""
+        """Length along the path by which a line of contact leans while it crosses the face [m]."""
         return self.face_width * math.tan(self.base_helix)
 
     @property
@@ -182,7 +182,10 @@ class Path:
         return dict(sorted(inside.items(), key=lambda item: (item[1], item[0])))
 
     def share(self, s: float) -> float:
-        """Of the normal force, on a line of contact as long as the face is wide; of helical teeth the mean over it."""
+        """Return the share of the normal force on a line of contact as long as the face is wide.
+
+        Of helical teeth it is the mean over that line.
+        """
         if self.base_helix:
             starts = s - self.overlap * (np.arange(_ACROSS) + 0.5) / _ACROSS
             return float(np.mean(1 / self.lines(starts)))
@@ -194,8 +197,10 @@ class Path:
         return (1 + (self.end - s) / (self.end - d)) / 3
 
     def lines(self, starts: FloatArray) -> FloatArray:
-        """Length of all lines of contact of helical teeth when one of them meets the face's edge at these distances
-        [m], over that of a line across the whole face."""
+        """Return the length of all lines of contact of helical teeth, over that of a line across the whole face.
+
+        starts : distances [m] at which one of the lines meets the edge of the face.
+        """
         around = math.ceil((self.end - self.start + 2 * self.overlap) / self.base_pitch) + 1
         offset = self.base_pitch * np.arange(-around, around + 1)
         low = np.asarray(starts)[..., None] + offset
@@ -237,7 +242,7 @@ def _quadrature(path: Path) -> list[tuple[float, float]]:
 
 
 def path_of_contact(model: GearModel) -> Path:
-    """The path of a pair.
+    """Return the path of contact of a pair.
 
     Raises
     ------
@@ -269,7 +274,7 @@ def path_of_contact(model: GearModel) -> Path:
 
 
 def _inverse_involute(value: float) -> float:
-    """The angle whose tan(a) - a this is."""
+    """Return the angle a [rad] of a value of the involute function tan(a) - a."""
     from scipy.optimize import brentq
 
     if not 0 < value < 3:
@@ -278,7 +283,7 @@ def _inverse_involute(value: float) -> float:
 
 
 def _turns(omega: tuple[float, float]) -> tuple[float, float]:
-    """Of both gears [1/s]: each flank passes once in one."""
+    """Return the revolutions of both gears [1/s]: a flank passes the contact once in each."""
     return omega[0] / (2 * math.pi), omega[1] / (2 * math.pi)
 
 

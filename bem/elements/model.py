@@ -172,4 +172,4 @@ class ElementModel(Table):
 
     @abstractmethod
     def contacts(self) -> Contacts:
-        """All contacts of the element."""
+        """Return all contacts of the element."""

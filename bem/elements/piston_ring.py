@@ -91,22 +91,22 @@ class PistonRingModel(ElementModel):
 
     @property
     def cycle(self) -> float:
-        """Angle after which all comes again [rad]."""
+        """Angle of a working cycle, after which all repeats [rad]."""
         return 2 * math.pi if self.gas is None else 2 * math.pi * round(self.gas.crank_angle[-1] / (2 * math.pi))
 
     def piston_speed(self, angle: float) -> float:
-        """Downwards [m/s]."""
+        """Return the speed of the piston, positive downwards [m/s]."""
         crank = 0.5 * self.stroke
         sine, cosine = math.sin(angle), math.cos(angle)
         return self.speed * crank * sine * (1 + crank * cosine / math.sqrt(self.rod**2 - (crank * sine) ** 2))
 
     def line_load(self, angle: float) -> float:
-        """What presses on the liner by length of the ring [N/m]."""
+        """Return the load of the ring on the liner per length [N/m]."""
         gas = 0.0 if self.gas is None else float(np.interp(angle, self.gas.crank_angle, self.gas.pressure))
         return 2 * self.tension / self.bore + self.crown * gas * self.height
 
     def contacts(self) -> Contacts:
-        """Over the cycle, half a step beside the turning points, where nothing is entrained."""
+        """Return the contacts over the cycle, half a step beside the turning points, where nothing is entrained."""
         step = self.cycle / self.points
         around = math.pi * self.bore
         found, lost = [], 0

@@ -179,7 +179,7 @@ class PlainBushModel(ElementModel):
 
     @cached_property
     def shaft_contact(self) -> ShaftContact:
-        """Contact under the load."""
+        """Contact of shaft and bush under the load."""
         return solve_shaft_in_bush(self.bodies, self.line_load)
 
     @property
@@ -269,7 +269,7 @@ class PlainBushModel(ElementModel):
         return pressure - 1, width / self.shaft_contact.half_angle - 1
 
     def contacts(self) -> Contacts:
-        """The one contact at the load line."""
+        """Return the one contact, at the load line."""
         return Contacts((self.contact(),), "angle", "rad", self._notes())
 
     def _notes(self) -> tuple[Note, ...]:

@@ -105,7 +105,7 @@ class BearingModel(ElementModel):
 
     @property
     def pitch(self) -> float:
-        """Diameter of the circle of their middles [m]."""
+        """Pitch diameter: of the circle of the middles of the elements [m]."""
         return 0.5 * (self.bore + self.outside) if self.pitch_diameter is None else self.pitch_diameter
 
     @property
@@ -177,7 +177,7 @@ class BearingModel(ElementModel):
         return slice_rollers(self.geometry, self.load, clearance=self.clearance, tilt=self.tilt, profiled=profiled)
 
     def contacts(self) -> Contacts:
-        """All that carry, inner and outer, by their angle from the load."""
+        """Return all loaded contacts, on inner and outer ring, by their angle from the load."""
         angles, shared = self._angles, self.shared
         leaning = np.zeros(self.count) if self.ball_loads is None else self.ball_loads.contact_angles
         uneven = _unevenness(self.slices)
@@ -228,7 +228,7 @@ def _unevenness(rollers: SlicedRollers | None) -> dict[int, float]:
 
 
 def _stiffness(model: BearingModel, races: Sequence[_Race], modulus: float) -> tuple[float, float]:
-    """K [N/m^n] and n of one element between both rings."""
+    """Return the stiffness K [N/m^n] and the exponent n of one element between both rings."""
     if model.length is not None:
         per_ring = (1e3 * model.length) ** (8 / 9) / 3.84e-5 ** (10 / 9)  # Q = (l^0.8 d / 3.84e-5)^(1/0.9), in mm
         return per_ring * (0.5 * 1e3) ** (10 / 9), 10 / 9
@@ -242,7 +242,7 @@ def _stiffness(model: BearingModel, races: Sequence[_Race], modulus: float) -> t
 
 
 def share(load: float, stiffness: float, power: float, clearance: float, angles: Sequence[float]) -> list[float]:
-    """Loads [N] of elements at these angles from a radial load [N] that they carry together.
+    """Return the loads [N] of elements at angles from a radial load [N] that they carry together.
 
     stiffness K [N/m^power], diametral clearance [m]. The radial shift is found by bracketing.
     """
@@ -261,8 +261,11 @@ def share(load: float, stiffness: float, power: float, clearance: float, angles:
 
 
 def load_integral(factor: float, power: float, integrate: Callable[..., tuple[float, float]]) -> float:
-    """Sjovall's radial integral J_r of the load factor epsilon: mean over the circle of the share of the most loaded
-    element times cos(psi), [1 - (1 - cos psi) / 2 epsilon]^power; F_r = Z Q_max J_r. `integrate` is quad of scipy."""
+    """Return Sjovall's radial integral J_r of the load factor epsilon; F_r = Z Q_max J_r.
+
+    It is the mean over the circle of the share of the most loaded element, [1 - (1 - cos psi) / 2 epsilon]^power, times
+    cos(psi). `integrate` is quad of scipy.
+    """
     edge = math.acos(max(1 - 2 * factor, -1.0))
 
     def inside(angle: float) -> float:
@@ -272,7 +275,7 @@ def load_integral(factor: float, power: float, integrate: Callable[..., tuple[fl
 
 
 def _centrifugal(model: BearingModel) -> float:
-    """What presses each element on the outer ring [N]."""
+    """Return the centrifugal force of each element on the outer ring [N]."""
     density = model.second.density or _STEEL_DENSITY
     volume = math.pi * model.diameter**3 / 6
     if model.length is not None:

@@ -64,7 +64,7 @@ class Patch:
     periodic: tuple[bool, bool]
 
     def table(self) -> dict[str, Any]:
-        """As the table [grid] of a scene."""
+        """Return the patch as the table [grid] of a scene."""
         return {"shape": list(self.shape), "lengths": list(self.lengths), "periodic": list(self.periodic)}
 
     @property
@@ -73,7 +73,7 @@ class Patch:
         return max(length / cells for length, cells in zip(self.lengths, self.shape, strict=True))
 
     def surface(self, rms_height: float) -> dict[str, Any]:
-        """As the table [surface] of a body: self-affine roughness of an rms height [m] that the grid resolves."""
+        """Return the table [surface] of a body: self-affine roughness of an rms height [m] that the grid resolves."""
         cutoff = _CELLS_PER_SHORTEST_WAVE * self.coarser_spacing
         return {
             "kind": "generated",
@@ -85,7 +85,7 @@ class Patch:
 
 
 def patch_over(contact: ElementContact, modulus: float) -> Patch:
-    """Patch that holds the Hertz contact: a slice of a line contact, the whole of a point contact.
+    """Return the patch that holds the Hertz contact: a slice of a line contact, the whole of a point contact.
 
     modulus : contact modulus [Pa].
     """
@@ -104,7 +104,7 @@ def patch_over(contact: ElementContact, modulus: float) -> Patch:
 def rough_bodies(
     model: ElementModel, bodies: Mapping[str, Mapping[str, Any]], patch: Patch
 ) -> dict[str, dict[str, Any]]:
-    """Both bodies' tables with random surfaces, whose rms heights together are the element's; smooth without one."""
+    """Return both bodies' tables with random surfaces of the element's rms height together; smooth without one."""
     if model.rms_roughness is None:
         return {name: dict(body) for name, body in bodies.items()}
     surface = patch.surface(model.rms_roughness / math.sqrt(2))
@@ -119,7 +119,7 @@ def mixed_scene(
     kind: str,
     modulus: float,
 ) -> dict[str, Any]:
-    """Keys of a scene of kind friction or running-in: load, speed and supply of one place of the element.
+    """Return the keys of a scene of kind friction or running-in: load, speed and supply of one place of the element.
 
     Parameters
     ----------
@@ -204,7 +204,7 @@ def life_scene(
 def bush_scene(
     model: PlainBushModel, contact: ElementContact, oil: Mapping[str, Any], shaft: Any, bush: Any
 ) -> dict[str, Any]:
-    """Keys of a scene of kind friction of a bush: a ground shaft, whose roughness repeats under the wide contact.
+    """Return the keys of a scene of kind friction of a bush: a ground shaft, whose roughness repeats along the contact.
 
     Film and Hertz contact have the modulus with which a cylinder on a half-space is as wide as on the wall. Asperities
     are small against the wall and deform the bush's own material.
@@ -279,7 +279,7 @@ def bush_rubbing_scene(
     friction: float,
     bulk: float,
 ) -> dict[str, Any]:
-    """Keys of a scene of kind surface-temperature of a bush: a slice with the ground shaft of kind friction.
+    """Return the keys of a scene of kind surface-temperature of a bush: a slice with the ground shaft.
 
     Under an endless line a body at rest has no steady temperature: the bush creeps at a thousandth of the shaft's
     speed. A hundred times faster or slower moves the rise of a steel shaft in PEEK by 2 %, as the shaft takes the heat.
@@ -326,7 +326,7 @@ def bush_rubbing_scene(
 def rubbing_scene(
     model: ElementModel, contact: ElementContact, bodies: Mapping[str, Mapping[str, Any]], modulus: float
 ) -> dict[str, Any]:
-    """Keys of a scene of kind surface-temperature; see `mixed_scene`.
+    """Return the keys of a scene of kind surface-temperature; see `mixed_scene`.
 
     A line contact is a slice that repeats along its length. Under a body at rest the heat of an endless line has no
     steady temperature, so that there the patch stands alone, as long as it is wide.
@@ -362,12 +362,12 @@ def rubbing_scene(
 
 
 def hardness_of(model: ElementModel) -> float | None:
-    """Hardness of the softer material [Pa]; None where neither material has one."""
+    """Return the hardness of the softer material [Pa]; None where neither material has one."""
     return softer_hardness(Body(model.first.build()), Body(model.second.build()))
 
 
 def _thermal(model: ElementModel, contact: ElementContact) -> str:
-    """Heat of a film between rough surfaces; across the film it is known for line contacts alone."""
+    """Return the heat of a film between rough surfaces; across the film it is known for line contacts alone."""
     if not conducts(model):
         return "off"
     return "lumped" if model.thermal == "full" and contact.length is None else model.thermal

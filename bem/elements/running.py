@@ -127,7 +127,7 @@ def _asperity_share(element: Element, central_film: float) -> float | None:
 
 
 def _scatter(film: FilmSolution, oil: Lubricant) -> tuple[float, float] | None:
-    """Scatter of the film's friction from the oil's constants, down and up; None where none is known."""
+    """Return the scatter of the film's friction from the oil's constants, down and up; None where none is known."""
     from bem.lubrication.oil_scatter import oil_scatter
     from bem.lubrication.shear import BaseOilShear
 
@@ -138,7 +138,10 @@ def _scatter(film: FilmSolution, oil: Lubricant) -> tuple[float, float] | None:
 
 
 def wear_per_pass(element: Element, contact: ElementContact) -> tuple[float | None, float | None]:
-    """Depth that one pass takes off each body [m]; None without a wear rate, or of a body that stands under it."""
+    """Return the depth that one pass wears off each body [m].
+
+    None without a wear rate, and of a body that stands under the load.
+    """
     rate, slid = element.model.specific_wear_rate, abs(contact.speeds[0] - contact.speeds[1])
     if rate is None:
         return None, None
@@ -217,7 +220,7 @@ _COLUMNS: dict[str, Callable[[Running], float | None]] = {
 
 
 def columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]:
-    """A row for each contact as in `Element.columns`; not a number where nothing is known, or no film was found.
+    """Return a row for each contact, as `Element.columns`; not a number where nothing is known, or no film was found.
     Wear needs no film, only what it slides."""
     found = {one.contact: one for one in runs if one.converged}
     at = [found.get(contact) for contact in element.found.contacts]

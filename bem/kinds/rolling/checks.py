@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def contacts(scene: RollingContactScene) -> list[Case]:
-    """Contact of the two bodies on the grid."""
+    """Return the contact of the two bodies on the grid."""
     from bem.scenes.checks.facts import dry_contacts
 
     return dry_contacts(scene, scene.wanted_depths())

@@ -23,17 +23,18 @@ def bars_of(
     """Estimate errors from the same rolling on the grid of twice the cell, whose steps are twice as long."""
     from bem.accuracy.sticking import ROLL_RULES
 
-    def again(coarser: Site) -> Coarse:
-        fewer: dict[str, float] | None = None
+    def solve_coarser(coarser: Site) -> Coarse:
+        """Solve the same rolling on the coarser grid."""
+        quarter_step_back: dict[str, float] | None = None
         if scene.history is None:
-            there = solve_rolling_contact(scene, coarser)
-            figures = rolled_figures(coarser, there, scene.roll.spin)
+            coarse = solve_rolling_contact(scene, coarser)
+            figures = rolled_figures(coarser, coarse, scene.roll.spin)
         else:
             history = solve_rolling_history(scene, coarser)
-            there = history.last
-            figures = rolled_figures(coarser, there, scene.roll.spin)
-            fewer = quarter_step_before(coarser, history, figures)
-        return Coarse(figures, coarser.contact, there.traction, there.status is Status.CONVERGED, fewer)
+            coarse = history.last
+            figures = rolled_figures(coarser, coarse, scene.roll.spin)
+            quarter_step_back = quarter_step_before(coarser, history, figures)
+        return Coarse(figures, coarser.contact, coarse.traction, coarse.status is Status.CONVERGED, quarter_step_back)
 
     given: tuple[str, ...] = ("creepage", "creepage_across") if scene.roll.share is None else ("force", "force_across")
     if scene.history is not None and scene.history.shares is not None:
@@ -43,7 +44,9 @@ def bars_of(
     residual = max(site.contact.residual, found.residual)
     limit = sticking.friction_limit(scene.roll.friction, site)
     figures = rolled_figures(site, found, scene.roll.spin)
-    return sticking.bars(scene, site, Found(figures, site.contact, ROLL_RULES, given, residual, limit, below), again)
+    return sticking.bars(
+        scene, site, Found(figures, site.contact, ROLL_RULES, given, residual, limit, below), solve_coarser
+    )
 
 
 RESOLUTIONS = (CELLS, DEPTHS)

@@ -21,6 +21,7 @@ _WORDS = {
 
 
 def _creep(run: Any, figure: Figure) -> None:
+    """Draw the force over creepage or spin."""
     data, axis = run.dataset, axis_of(run, *_CREEP)
     upper, lower = figure.subplots(2, 1, sharex=True)
     lines_over(upper, data, "creepage" if axis == "roll.share" else "traction_coefficient", axis)
@@ -37,6 +38,7 @@ def _creep(run: Any, figure: Figure) -> None:
 
 
 def _history(run: Any, figure: Figure) -> None:
+    """Draw force, creepage and stick over the distance rolled."""
     data = run.dataset
     distance = data["rolled_distance"].values
     factor, unit = prefix([float(distance.max())], "m")

@@ -7,11 +7,11 @@ from bem.kinds.rolling.scene import RollingContactScene
 from bem.scenes import build, plans, sticking
 from bem.scenes.planner import Plan, Step
 
-_TRANSFORMS = 6.0 * 2.8
-"""For each cell along the rolling: 2 to 3 convolutions were counted from 32 to 256 of them, each of four transforms and
-vector passes."""
+_TRANSFORMS_OF_CELL = 6.0 * 2.8
+"""Transforms for each cell along the rolling: 2 to 3 convolutions were counted from 32 to 256 cells, each of four
+transforms and vector passes."""
 
-_STEP = 6.0 * 20
+_TRANSFORMS_OF_STEP = 6.0 * 20
 """Transforms of a step of a history: 14 to 20 convolutions were counted."""
 
 _CURVED_PRODUCTS = 1000
@@ -37,9 +37,9 @@ def plan(scene: RollingContactScene) -> Plan:
                 f"{sticking.friction_words(scene.roll.friction)}"
                 if history is not None
                 else f"steady along x, {sticking.friction_words(scene.roll.friction)}",
-                transforms=_TRANSFORMS * max(grid.shape[0], 40)
+                transforms=_TRANSFORMS_OF_CELL * max(grid.shape[0], 40)
                 if history is None
-                else _STEP * history.steps(grid.spacing[0]),
+                else _TRANSFORMS_OF_STEP * history.steps(grid.spacing[0]),
                 points=points,
                 # directions that GMRES keeps, on the cells in contact
                 memory=8.0 * points * 6 + 8.0 * grid.cells * 2 * 62,

@@ -61,9 +61,10 @@ def _run_on_curved_rail(scene: RollingContactScene, context: Context) -> Rolling
 def _record(
     scene: RollingContactScene, site: Site, found: TangentialSolution, extra: dict[str, Any], errors: dict[str, Any]
 ) -> RollingRecord:
+    """Return the results of a case; `extra` has figures and curves, `errors` the error bars."""
     grid, contact = site.grid, site.contact
-    slid = found.slip / grid.spacing[0]
-    energy = -(found.traction * slid).sum(axis=0)
+    slip_per_length = found.slip / grid.spacing[0]
+    energy = -(found.traction * slip_per_length).sum(axis=0)
     work = found.dissipated_energy / grid.spacing[0]
     status = contact.status if contact.status is not Status.CONVERGED else found.status
     return RollingRecord(
@@ -76,7 +77,7 @@ def _record(
         spin=scene.roll.spin if scene.shape.kind == "profiles" else None,
         slip_residual=found.residual,
         convolutions=found.convolutions,
-        slip=np.hypot(*slid),
+        slip=np.hypot(*slip_per_length),
         friction_energy=energy,
         **errors,
         status=status,

@@ -23,13 +23,13 @@ def solve_rolling_contact(scene: RollingContactScene, site: Site) -> TangentialS
 
     roll = scene.roll
     carried = site.carried(roll.spin)
-    given: dict[str, Any] = {"creepage": (roll.creepage + carried[0], roll.creepage_across + carried[1])}
+    control: dict[str, Any] = {"creepage": (roll.creepage + carried[0], roll.creepage_across + carried[1])}
     if roll.share is not None:
-        given = {"force": (roll.share * friction_limit(roll.friction, site), 0.0)}
-    asked: dict[str, Any] = {"friction": roll.friction, "spin": roll.spin, "tolerance": roll.tolerance}
+        control = {"force": (roll.share * friction_limit(roll.friction, site), 0.0)}
+    settings: dict[str, Any] = {"friction": roll.friction, "spin": roll.spin, "tolerance": roll.tolerance}
     if roll.speed is not None:
-        asked["speed"] = roll.speed
-    return solve_rolling(site.contact, site.grid, build.bodies_of(scene), **given, **asked)
+        settings["speed"] = roll.speed
+    return solve_rolling(site.contact, site.grid, build.bodies_of(scene), **control, **settings)
 
 
 def solve_rolling_history(
@@ -44,10 +44,10 @@ def solve_rolling_history(
     roll, history, bodies = scene.roll, scene.history, build.bodies_of(scene)
     assert history is not None
     values, start = history.values(site.grid.spacing[0]), None
-    given: dict[str, Any] = {"creepage": values + np.array(site.carried(roll.spin))}
+    control: dict[str, Any] = {"creepage": values + np.array(site.carried(roll.spin))}
     if history.shares is not None:
         limit = friction_limit(roll.friction, site)
-        given = {"force": values * limit}
+        control = {"force": values * limit}
         if history.shares[0]:
             push = (history.shares[0] * limit, 0.0)
             start = solve_partial_slip(
@@ -62,7 +62,7 @@ def solve_rolling_history(
         start=start,
         tolerance=roll.tolerance,
         after=after,
-        **given,
+        **control,
     )
     if history.shares is not None:
         return found
