@@ -451,8 +451,7 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
     assert model.oil is not None
     if model.oil.temperature is None:
         return "not known: give oil.temperature"
-    oil = model.oil.temperature - ZERO_CELSIUS
-    said = f"oil {oil:.4g} °C, "
+    said = f"oil {model.oil.temperature - ZERO_CELSIUS:.4g} °C, "
     if model.bulk_temperature is None:
         said += "films solved with bodies as warm as the oil (give bulk_temperature or heat_balance if warmer)"
     else:
@@ -462,6 +461,9 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
                 f"flanks {model.bulk_temperature - ZERO_CELSIUS:.3g} °C (estimate: oil + 0.7 x mean flash temperature; "
                 "give bulk_temperature or heat_balance if you know better)"
             )
+        if element.ambient is not None:
+            said = "oil and "
+            bulk += f" by the heat balance with surroundings of {element.ambient - ZERO_CELSIUS:.4g} °C"
         said += f"{bulk}, at which films are solved"
         if model.viscosity_fixed and not model.viscosity_notes():
             said += " (the viscosity given is taken at this temperature)"

@@ -30,7 +30,8 @@ from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
 from bem.notes.checks import SLOPES_LARGE, YIELDS
-from bem.notes.elements import NO_HEAT, SPEED_WITHOUT_UNIT, SURFACES_TOUCH
+from bem.notes.elements import NO_HEAT, OIL_FOLLOWS_BALANCE, SPEED_WITHOUT_UNIT, SURFACES_TOUCH
+from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import with_unit
 from bem.scenes.checks.hertz import smooth_contact
 from bem.scenes.checks.plausible import notes_on_table
@@ -101,6 +102,8 @@ MIXED = ("friction", "running-in")
 """Kinds of scene in which the oil film and the rough surfaces share the load, besides `LIFE`."""
 LIFE = "running-in-life"
 """Kind of scene of a life in which they share the load and wear."""
+_ALIKE = 1.0
+"""Difference of temperatures [K] below which oil and bodies count as equally warm."""
 
 
 @dataclass(frozen=True)
@@ -108,11 +111,14 @@ class Element:
     """An element as its file says it; `table` is that, `model` what it means.
 
     bulk_estimated : True if the bulk temperature is an estimate in place of one of the file.
+    ambient : temperature of the surroundings whose heat balance gave the bulk temperature [K]; None of a bush, which
+        has its own words, and without such a balance.
     """
 
     model: ElementModel
     table: Mapping[str, Any]
     bulk_estimated: bool = False
+    ambient: float | None = None
 
     @cached_property
     def found(self) -> Contacts:
@@ -161,9 +167,13 @@ class Element:
         """Return the element with bodies of a temperature [K], in place of its bulk temperature or heat balance."""
         table = {key: value for key, value in self.table.items() if key not in ("bulk_temperature", "heat_balance")}
         changes: dict[str, Any] = {"bulk_temperature": temperature, "heat_balance": None}
+        balance, ambient = self.model.heat_balance, None
         if isinstance(self.model, PlainBushModel):  # says to where the heat flows, and which conductance is assumed
-            changes["heat_balance"] = self.model.heat_balance or HeatBalanceScene()
-        return Element(self.model.model_copy(update=changes), table | {"bulk_temperature": temperature}, estimated)
+            changes["heat_balance"] = balance or HeatBalanceScene()
+        elif balance is not None:
+            ambient = balance.ambient
+        warm = table | {"bulk_temperature": temperature}
+        return Element(self.model.model_copy(update=changes), warm, estimated, ambient)
 
     def _film_oil(self) -> OilScene:
         assert self.model.film_oil is not None
@@ -289,6 +299,8 @@ class Element:
     def notes(self) -> tuple[Note, ...]:
         """Return the notes on the element, and on places where half-space and line film do not carry."""
         notes = [*notes_on_table(self.model), *self.found.notes, *self.model.viscosity_notes()]
+        if (unused := self._unused_oil_temperature()) is not None:
+            notes.append(unused)
         if (bare := self.speed_note()) is not None:
             notes.append(bare)
         wide = [one.name for one in self.found.contacts if one.is_wide(self.modulus)]
@@ -306,6 +318,15 @@ class Element:
         if touching and not isinstance(self.model, PlainBushModel):  # whose solved film tells it
             notes.append(SURFACES_TOUCH(where=f" at {touching} of {len(ratios)} places"))
         return tuple(notes)
+
+    def _unused_oil_temperature(self) -> Note | None:
+        """Return a note on an oil temperature beside a heat balance with an ambient, which gives another one."""
+        oil, bulk = self.model.oil, self.model.bulk_temperature
+        if self.ambient is None or bulk is None or oil is None or oil.temperature is None:
+            return None
+        if oil.temperature == self.ambient or abs(oil.temperature - bulk) < _ALIKE:
+            return None
+        return OIL_FOLLOWS_BALANCE(bulk=bulk - ZERO_CELSIUS, oil=oil.temperature - ZERO_CELSIUS)
 
     def speed_note(self) -> Note | None:
         """Return a note on a speed of rotation without a unit; None of one that has it."""
@@ -548,8 +569,9 @@ def load_element(source: str | Path | Mapping[str, Any]) -> Element:
         listed = ", ".join(f'"{name}"' for name in MODELS)
         found = show(table.get("element"))
         raise InputError(f"element = {found}: not allowed{nearest(kind, MODELS)}; allowed: {listed}")
-    if kind == "plain-bush" and isinstance(table.get("oil"), Mapping):
-        table["oil"] = with_temperature(with_pressure_viscosity(table["oil"]), table)
+    if isinstance(table.get("oil"), Mapping):
+        oil = with_pressure_viscosity(table["oil"]) if kind == "plain-bush" else table["oil"]
+        table["oil"] = with_temperature(oil, table)
     try:
         return Element(validate(table, MODELS[kind]), table)
     except InputError as error:  # what is wrong with the whole is said of the element

@@ -63,10 +63,10 @@ class Contacts:
 
 
 class HeatBalanceScene(Table):
-    """Heat balance of the bodies: they are warmer than `ambient` by friction power over `conductance`.
+    """Heat balance: bodies and oil are warmer than `ambient` by friction power over `conductance`.
 
-    Without `ambient` the heat goes to the oil at its temperature. Only bushes do without `conductance`: they have a
-    usual one.
+    Without `ambient` the heat goes to the oil, which keeps its temperature, and the bodies are warmer than it. Only
+    bushes do without `conductance`: they have a usual one.
     """
 
     conductance: Annotated[Conductance, Field(gt=0)] | None = None

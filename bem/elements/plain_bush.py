@@ -301,9 +301,10 @@ def with_pressure_viscosity(oil: Mapping[str, Any]) -> Mapping[str, Any]:
 
 
 def with_temperature(oil: Mapping[str, Any], bush: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Return a table of an oil of a bush, where it has none with the bush's temperature or that of its surroundings.
+    """Return a table of an element's oil, where it has none with the bodies' temperature or that of the surroundings.
 
-    Film and friction follow these, so that the oil needs no temperature of its own. A given viscosity keeps none.
+    `bush` is the table of the element. Film and friction follow these, so that the oil needs no temperature of its own.
+    A given viscosity keeps none.
     """
     if oil.get("temperature") is not None or oil.get("viscosity") is not None:
         return oil

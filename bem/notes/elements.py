@@ -162,6 +162,15 @@ VISCOSITY_FIXED = define(
     "The bodies have {bulk:.0f} °C; films have the viscosity that is given for {oil:.0f} °C.",
     "Give oil.temperature_viscosity, or oil.grade.",
 )
+OIL_FOLLOWS_BALANCE = define(
+    "oil-follows-balance",
+    CAUTION,
+    "The oil is as warm as the bodies, not at oil.temperature.",
+    "With an ambient the heat balance gives the temperature of bodies and oil, {bulk:.4g} °C; oil.temperature, "
+    "{oil:.4g} °C, is not used.",
+    "If the oil comes at {oil:.4g} °C, as from a cooler or a sump, leave out heat_balance.ambient: the heat then goes "
+    "to this oil. Otherwise check the conductance, and leave out oil.temperature.",
+)
 BUSH_LIQUID_LOST = define(
     "bush-liquid-lost",
     CAUTION,

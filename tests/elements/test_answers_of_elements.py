@@ -20,6 +20,7 @@ from bem.elements.gear_scuffing import (
 )
 from bem.elements.rating_life import dynamic_rating
 from bem.elements.running import operating_places, run_all, run_contact
+from bem.notes.elements import OIL_FOLLOWS_BALANCE
 
 STEEL_BEARING = {
     "element": "rolling-bearing", "name": "nu208", "rolling": "roller", "bore": "40 mm", "outside": "80 mm",
@@ -190,6 +191,24 @@ def test_the_heat_balance_balances():
     assert hot.model.bulk_temperature > 348
     plain = load_element(STEEL_BEARING)
     assert balance_heat(plain) is plain
+
+
+def test_with_an_ambient_the_oil_is_as_warm_as_the_bodies():
+    """The oil's own temperature is not used, and a caution says so; none without it, or without an ambient."""
+    ambient = {"conductance": "2 W/K", "ambient": "40 degC"}
+    found = load_element(STEEL_BEARING | {"heat_balance": ambient}).at_bulk(325.15)
+    said = dict(answer(found, [run_contact(found, found.worst())]))["temperatures"]
+    assert said.startswith("oil and bodies 52 °C by the heat balance with surroundings of 40 °C, at which films")
+    (caution,) = [str(note) for note in found.notes() if note.code == OIL_FOLLOWS_BALANCE.code]
+    assert "52 °C; oil.temperature, 70 °C, is not used" in caution
+    given = {"grade": "ISO VG 220"}
+    alone = load_element(STEEL_BEARING | {"heat_balance": ambient, "oil": given}).at_bulk(325.15)
+    assert OIL_FOLLOWS_BALANCE.code not in [note.code for note in alone.notes()]
+    assert alone.columns() == found.columns()
+    to_oil = load_element(STEEL_BEARING | {"heat_balance": {"conductance": "2 W/K"}}).at_bulk(348.15)
+    assert OIL_FOLLOWS_BALANCE.code not in [note.code for note in to_oil.notes()]
+    with pytest.raises(InputError, match="temperature"):
+        load_element(STEEL_BEARING | {"heat_balance": {"conductance": "2 W/K"}, "oil": given})
 
 
 @pytest.mark.internal
