@@ -89,6 +89,8 @@ def friction_power(element: Element, runs: Sequence[Running]) -> FrictionPower:
         per_load = np.array([value(one) / one.contact.load for one in known])
 
         def power(one: ElementContact) -> float:
+            if one.slices:
+                return _over_slices(one, known, value)
             return own[one] if one in own else one.load * float(np.interp(one.place, at, per_load))
 
         return found.mean(power, steady) * found.at_once
@@ -107,6 +109,21 @@ def friction_power(element: Element, runs: Sequence[Running]) -> FrictionPower:
     return FrictionPower(
         mean(lambda one: one.power), mixed, down, up, 1 - found.mean(lambda one: 1.0, lambda one: not steady(one))
     )
+
+
+def _over_slices(contact: ElementContact, runs: Sequence[Running], value: Callable[[Running], float]) -> float:
+    """Return the sum of a value over the slices of a line between tilted rings.
+
+    A slice has the value per length that a film of its load per length has, linear between the solved films on the same
+    ring and none without load.
+    """
+    import numpy as np
+
+    alike = [run for run in runs if run.contact.radii == contact.radii] or runs
+    known = sorted((run.contact.load, value(run)) for run in alike)
+    loads, values = zip((0.0, 0.0), *known, strict=True)
+    assert contact.length is not None  # all contacts of a bearing have this length
+    return float(np.mean(np.interp([contact.length * each for each in contact.slices], loads, values)))
 
 
 def _power_with_asperities(one: Running, boundary: float) -> float:

@@ -31,6 +31,8 @@ class ElementContact:
     length : of a line [m]; None for a point.
     speeds : of both surfaces over the contact, along the motion [m/s].
     inlet : how far before the axis the gap begins to be full of oil [m]; infinite where it is flooded.
+    slices : loads per length of equal slices along a line between tilted rings [N/m], whose highest is load over
+        length; empty where the load is even.
     """
 
     name: str
@@ -41,6 +43,7 @@ class ElementContact:
     across: float = math.inf
     length: float | None = None
     inlet: float = math.inf
+    slices: tuple[float, ...] = ()
 
     @property
     def radius(self) -> float:

@@ -110,6 +110,13 @@ class SlicedRollers:
         """Load per length [roller, slice] in N/m."""
         return self.loads * self.loads.shape[1] / self.length
 
+    def along(self, roller: int, highest: float) -> tuple[float, ...]:
+        """Return the loads per length of a roller's slices [N/m] whose most loaded one would carry `highest` [N] on the
+        whole length: what all its slices carry beside their own load is even along it."""
+        own = self.load_per_length[roller]
+        even = highest / self.length - own.max()
+        return tuple(float(one) for one in np.where(own > 0, own + even, 0.0))
+
 
 def profile_drop(position: FloatArray, diameter: float, length: float) -> FloatArray:
     """Return P [m], how far a roller's logarithmic reference profile lies below its straight line.

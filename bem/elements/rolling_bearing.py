@@ -7,8 +7,9 @@ steel ring (n = 10/9). Both surfaces roll at omega d_m (1 - gamma^2) / 4 over ei
 
 Balls carry an axial load at contact angles of their own (`ball_load`). Spin and differential slip of balls are left
 out, as are edges and skew of rollers, whose load is even along the length; between tilted rings a contact has the load
-per length of its most loaded slice (`reference_life`). The line film of a scene takes the middle of a ball's ellipse,
-and no oil that leaves sideways. The centrifugal force is in the loads of the outer ring, not in how the load is shared.
+per length of its most loaded slice (`reference_life`), and friction is that of all slices. The line film of a scene
+takes the middle of a ball's ellipse, and no oil that leaves sideways. The centrifugal force is in the loads of the
+outer ring, not in how the load is shared.
 """
 
 from __future__ import annotations
@@ -195,6 +196,7 @@ class BearingModel(ElementModel):
                         ElementContact(
                             f"{race.name}, {turned:.0f} deg", math.radians(turned), total,
                             (race.radius, 0.5 * self.diameter), (rolling, rolling), race.across, self.length,
+                            slices=() if self.slices is None else self.slices.along(number, total),
                         )
                     )  # fmt: skip
         return Contacts(
@@ -299,12 +301,13 @@ def _load_sharing(model: BearingModel, shared: Sequence[float], pressed_out: flo
             f"Axial load {si(model.axial_load, 'N', 4)}: contact angles {least:.3g} to {most:.3g} deg, the inner ring "
             f"{1e6 * model.ball_loads.axial_shift:.3g} um along the axis; spin of the balls is left out."
         )
-    uneven = _unevenness(model.slices)
-    if uneven:
+    if model.slices is not None:
+        critical = int(model.slices.loads.max(axis=1).argmax())
         said.append(
-            f"The rings are tilted by {1e3 * model.tilt:.3g} mrad: the most loaded slice of a roller has up to "
-            f"{max(uneven.values()):.3g} times the roller's mean load per length. Contacts have that of their most "
-            "loaded slice, and as their load that on the whole length."
+            f"The rings are tilted by {1e3 * model.tilt:.3g} mrad: the most loaded slice of the critical roller has "
+            f"{_unevenness(model.slices)[critical]:.3g} times that roller's mean load per length. Every contact has "
+            "the pressure of its most loaded slice, and as its load that which gives this pressure on the whole "
+            "length; the friction power is the sum over slices."
         )
     if pressed_out > 0.05 * highest:
         said.append(

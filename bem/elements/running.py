@@ -200,7 +200,7 @@ def run_all(
     found = []
     for done, one in enumerate(steady):
         told(done, len(steady))
-        alike = replace(one, name="", place=0.0, load=float(f"{one.load:.12g}"))
+        alike = replace(one, name="", place=0.0, load=float(f"{one.load:.12g}"), slices=())
         if alike not in solved:
             solved[alike] = run_contact(element, one)
         found.append(replace(solved[alike], contact=one))

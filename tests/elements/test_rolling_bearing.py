@@ -7,9 +7,12 @@ import pytest
 from scipy.integrate import quad
 
 from bem import CATALOGUE, InputError, contact_modulus
+from bem.elements.answer import friction_power
 from bem.elements.bearing_life import bearing_life
 from bem.elements.element import element_template, load_element
-from bem.elements.rolling_bearing import BearingModel, load_integral, share
+from bem.elements.rolling_bearing import BearingModel, _centrifugal, load_integral, share
+from bem.elements.running import Running
+from bem.errors import Status
 from bem.reference_solutions.hertz import ellipse_contact
 
 STEEL = "steel-52100"
@@ -141,6 +144,19 @@ def test_the_template_is_a_good_one(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(element_template("bearing"))
     assert load_element(path).model.name == "mine"
+
+
+def test_friction_of_tilted_rollers_is_the_sum_over_slices():
+    """Of films whose power is as their load: that of the load of all slices, not of the most loaded ones."""
+    element = load_element(ROLLERS | {"tilt": "2 mrad"})
+    contacts = element.found.contacts
+    runs = [Running(one, Status.CONVERGED, 1e-7, None, 0.0, 1e-3 * one.load, None, None) for one in contacts[:4]]
+    slices = element.model.slices.loads
+    carried = 2 * slices.sum() + (slices > 0).mean(axis=1).sum() * _centrifugal(element.model)
+    assert friction_power(element, runs).film == pytest.approx(1e-3 * carried, rel=1e-9)
+    assert sum(one.load for one in contacts) > 1.5 * carried
+    roller = slices[np.unravel_index(slices.argmax(), slices.shape)[0]]
+    assert f"critical roller has {roller.max() / roller.mean():.3g} times" in " ".join(element.found.geometry)
 
 
 def test_tilted_rollers_have_the_pressure_of_their_most_loaded_slice():
