@@ -244,7 +244,7 @@ def test_asperities_replace_their_share_of_the_films_sliding():
     )
     assert 0 < one.rolling_power < 0.5 * one.power
     power = friction_power(gears, [one]).with_asperities
-    whole = sum(other.load for other in gears.found.contacts) / len(gears.found.contacts) * gears.found.at_once
+    whole = gears.found.mean(lambda other: other.load) * gears.found.at_once
     assert power == pytest.approx(expected / one.contact.load * whole)
 
 
