@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.campaigns.cases import REPETITION
 from bem.physical_constants import ZERO_CELSIUS
 from bem.plots.labels import key_words, prefix
 from bem.results.arrays import Arrays
@@ -20,7 +21,6 @@ from bem.scenes.context import Variable
 from bem.scenes.kind import get_kind
 from bem.scenes.records import Series, described, figures
 
-REPETITION = "repetition"
 _PLACES = frozenset(("x", "y", "film_x", "frame"))
 """Axes of maps, films and sections."""
 _NAMED = ("m", "Pa")

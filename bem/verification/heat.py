@@ -9,7 +9,7 @@ from bem.heat import surface_temperature
 from bem.materials import Body, Material
 from bem.reference_solutions.heat_sources import disc_at_rest, moving_band
 from bem.verification.patches import disc_means, free_grid
-from bem.verification.rows import Curve
+from bem.verification.rows import CLOSED_FORM, Curve
 from bem.verification.stored import StoredCase, StoredCurve
 
 STEP = 1 / 80
@@ -24,7 +24,6 @@ REASON = {
     "heat-disc": "cells of 1/80 of the radius under the mean flux of each",
     "heat-band": "cells of 1/200 of the half-width, halves at the band's edges",
 }
-EXACT = "closed form; what is left is for the reference's error bars being estimates"
 
 
 def curves(case: StoredCase) -> list[Curve]:
@@ -37,11 +36,11 @@ def curves(case: StoredCase) -> list[Curve]:
         x = curve.coordinates[:, 0]
         if band:
             exact = moving_band(x, case.parameters["peclet"])
-            found.append(_pair(curve, f"{curve.name}, Jaeger's band", exact, 1e-5, EXACT))
+            found.append(_pair(curve, f"{curve.name}, Jaeger's band", exact, 1e-5, CLOSED_FORM))
         elif case.parameters["profile"] == "uniform":
             inside = curve.only(x <= 1)
             exact = disc_at_rest(inside.coordinates[:, 0])
-            found.append(_pair(inside, f"{curve.name}, disc at rest", exact, 1e-5, EXACT))
+            found.append(_pair(inside, f"{curve.name}, disc at rest", exact, 1e-5, CLOSED_FORM))
     return found
 
 

@@ -15,6 +15,9 @@ STRESS_LIMIT = 1e-2
 FLOOR = 1e-2
 """A stress below this share of the load counts as so much: a small difference of large stresses is no result."""
 
+CLOSED_FORM = "closed form; what is left is for the reference's error bars being estimates"
+"""Reason of the tolerance where bem's side is a closed form."""
+
 
 @dataclass(frozen=True)
 class Row:

@@ -14,7 +14,7 @@ from bem.kernels.half_plane import strip_displacement, strip_stress
 from bem.kernels.loads import Load
 from bem.stress import subsurface_stress
 from bem.verification.patches import surface_displacement
-from bem.verification.rows import Curve
+from bem.verification.rows import CLOSED_FORM, Curve
 from bem.verification.stored import STRESS_NAMES, StoredCase, StoredCurve, on_side
 
 STEP = 1 / 120
@@ -24,7 +24,6 @@ ROWS = 2
 ACROSS = 20
 """Least cells over the thinnest layer: with six over a soft one its small shear is 10 % off, of second order."""
 REASON = "cells of 1/120 of the half-width, 1/20 of the thinnest layer; halves at the strip's edges"
-EXACT = "closed form; what is left is for the reference's error bars being estimates"
 DATUM = 4.0
 ANTIPLANE = (1, 0, 2, 4, 3, 5)
 """Stresses of the reference (x across, y along the strip) in bem's axes exchanged: yz is xz."""
@@ -48,7 +47,7 @@ def curves(case: StoredCase) -> list[Curve]:
         if case.body.homogeneous and load != "antiplane":
             closed = _closed(case, curve)
             if closed is not None:
-                found.append(curve.beside(f"{quantity}, half-plane kernel", closed, 1e-5, EXACT))
+                found.append(curve.beside(f"{quantity}, half-plane kernel", closed, 1e-5, CLOSED_FORM))
     return found
 
 
