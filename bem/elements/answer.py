@@ -252,7 +252,7 @@ def answer(element: Element, solved: Sequence[Running]) -> Rows:
         rows.append(("micropitting", _micropitting(element, runs)))
     rows.append(("wear per hour", wear_per_hour(element)))
     if worn_volume_rate(element) > 0:
-        rows.append(("particles per hour", particles_per_hour(element)))
+        rows.append(("worn volume per hour", particles_per_hour(element)))
     return (*rows, *_lost(element, solved))
 
 
@@ -272,7 +272,7 @@ def _bush(element: Element, model: PlainBushModel, runs: Sequence[Running], solv
     film = [("lambda ratio", said or _film(element, runs))] if runs else []
     rows = bush_rows(model, film_of_it)
     if model.mean_particle_volume is not None:
-        rows.append(("particles per hour", particles_per_hour(element)))
+        rows.append(("worn volume per hour", particles_per_hour(element)))
     return (("critical contact", pressure_words(model)), *film, *rows, *_lost(element, solved))
 
 
@@ -355,9 +355,7 @@ def contact_words(element: Element, one: ElementContact) -> str:
         return pressure_words(element.model)
     hertz = one.hertz(element.modulus)
     sliding = abs(one.speeds[0] - one.speeds[1])
-    moves = f"entrainment {abs(one.mean_speed):.3g} m/s" + (
-        f", sliding {sliding:.3g} m/s" if sliding else ", pure rolling"
-    )
+    moves = f"entrainment {one.mean_speed:.3g} m/s" + (f", sliding {sliding:.3g} m/s" if sliding else ", pure rolling")
     return (
         f"{place_words(element, one)}: Hertz pressure {with_unit(hertz.maximum_pressure, 'Pa')}, "
         f"load {with_unit(one.load, 'N')}, radius {with_unit(one.radius, 'm')}, {moves}"
@@ -382,7 +380,42 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
     cool = ""
     if element.bulk_estimated:
         cool = f"; about {_ratio_at_oil(element, thinnest):.3g} if the flanks were only as warm as the oil"
-    return f"{ratio:.3g} ({regime}{touching}), {film}{cool}"
+    return f"{ratio:.3g} ({regime}{touching}), {film}{cool}{_unsolved_words(element)}"
+
+
+def unsolved_ratio(element: Element) -> tuple[float, ElementContact] | None:
+    """Return the smallest lambda ratio by the formula of the places without a steady film, and its contact.
+
+    None without such places, or without roughness.
+    """
+    ratios = element.columns().get("film_over_roughness")
+    if ratios is None:
+        return None
+    against = [i for i, one in enumerate(element.found.contacts) if abs(one.slide_roll_ratio) > 2]
+    if not against:
+        return None
+    least = min(against, key=lambda i: ratios[i])
+    return ratios[least], element.found.contacts[least]
+
+
+def _unsolved_words(element: Element) -> str:
+    """Return what the formula gives where the surfaces run against each other; empty without such places."""
+    found = unsolved_ratio(element)
+    if found is None:
+        return ""
+    ratio, one = found
+    contacts = element.found.contacts
+    against = sum(abs(each.slide_roll_ratio) > 2 for each in contacts)
+    said = f"{ratio:.2g} at {place_words(element, one)}"
+    worst = element.worst()
+    if abs(worst.slide_roll_ratio) > 2 and worst != one:
+        said += (
+            f", {element.columns()['film_over_roughness'][contacts.index(worst)]:.2g} at {place_words(element, worst)}"
+        )
+    return (
+        f". Not solved at {against} of {len(contacts)} positions, where the surfaces run against each other: by the "
+        f"formula lambda is {said}"
+    )
 
 
 _NEAR = 0.02
@@ -530,6 +563,12 @@ def _micropitting(element: Element, runs: Sequence[Running]) -> str:
     if thinnest.film_ratio is None:
         return "not known: give rms_roughness, of both surfaces together"
     ratio, permitted = thinnest.film_ratio, element.model.permissible_film_ratio
+    unsolved = unsolved_ratio(element)
+    if unsolved is not None and unsolved[0] < ratio:
+        return (
+            f"not known: the thinnest films are not solved, where the surfaces run against each other; by the formula "
+            f"lambda is {unsolved[0]:.2g} at {place_words(element, unsolved[1])}, the smallest solved {ratio:.3g}"
+        )
     said = f"smallest specific film thickness (lambda) {ratio:.3g}"
     if permitted is None:
         return f"{said}; for a safety factor give permissible_film_ratio, from a test with this oil and surface finish"

@@ -50,7 +50,7 @@ class CamModel(ElementModel):
         if smallest <= 0:
             raise problem(
                 f"a flat follower cannot touch a hollow flank (smallest radius {1e3 * smallest:.3g} mm)",
-                "a larger base_radius, a wider half_angle or less lift",
+                f"a base_radius above {1e3 * (self.base_radius - smallest):.4g} mm, a wider half_angle or less lift",
             )
         return self
 

@@ -15,7 +15,7 @@ from typing import Any
 
 from pydantic_core import PydanticCustomError
 
-from bem.elements.answer import film_of_bush, likely_power, place_words
+from bem.elements.answer import film_of_bush, likely_power, place_words, unsolved_ratio
 from bem.elements.bearing_life import bearing_life
 from bem.elements.bush_answer import bush_temperature, friction_power_of, journal_of, wear_life
 from bem.elements.element import Element, load_element, read_element
@@ -205,6 +205,8 @@ def _solved(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dict
         ]
     found["micropitting_safety"] = [
         _number(one.film_ratio) / _number(case.model.permissible_film_ratio)
+        if (unsolved := unsolved_ratio(case)) is None or unsolved[0] >= _number(one.film_ratio)
+        else math.nan
         for case, one in zip(cases, thinnest, strict=True)
     ]
     return found

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import math
+
 from bem.elements.element import Element
-from bem.elements.gear_pair import GearModel
+from bem.elements.piston_ring import PistonRingModel
 from bem.elements.plain_bush import PlainBushModel
 from bem.elements.running import wear_per_pass
 from bem.particles import particle_number
 
 CITES = ("archard1953",)
 """Source of the wear law, a key of `bem/references.bib`."""
+_LAW = "; Archard's law with the whole load and a wear rate of this lubrication"
+_NAMES = {"gear-pair": ("pinion", "wheel"), "cam-follower": ("cam", "follower")}
+"""Names of body 1 and body 2."""
 _ROLLS = "none: both surfaces roll at one speed without sliding"
 
 
@@ -20,15 +25,44 @@ def wear_per_hour(element: Element) -> str:
         return _ROLLS
     if element.model.specific_wear_rate is None:
         return "not known: give specific_wear_rate, measured with this oil at a like lambda ratio"
+    if isinstance(element.model, PistonRingModel):
+        return _ring_wear(element, element.model) + _LAW
     said = []
-    names = ("pinion", "wheel") if isinstance(element.model, GearModel) else ("body 1", "body 2")
+    names = _NAMES.get(element.model.element, ("body 1", "body 2"))
     for body, (name, rate) in enumerate(zip(names, rates, strict=True)):
         if rate is None:
             said.append(f"{name} not known: its places are not passed equally often")
             continue
         depth, where = max((wear_per_pass(element, one)[body] or 0.0, one.name) for one in contacts)
         said.append(f"{name} {3600 * rate * depth * 1e6:.3g} um at {where}")
-    return ", ".join(said) + "; Archard's law with the whole load and a wear rate of this lubrication"
+    return ", ".join(said) + _LAW
+
+
+def _ring_wear(element: Element, ring: PistonRingModel) -> str:
+    """Return the depth that an hour takes off liner and ring, in words.
+
+    A place of the liner is passed at crank angles t and -t of each turn; a pass takes off wear rate times line load.
+    The contact stays on the ring's face: the mean depth over its height is wear rate x line load x speed over the
+    height, the mean over the cycle, and at the line of contact of a new face wear rate x Hertz pressure x speed.
+    """
+    rate, turns = ring.specific_wear_rate or 0.0, round(ring.cycle / (2 * math.pi))
+    cycles = 3600 * ring.speed / ring.cycle
+
+    def passes(angle: float) -> float:
+        angles = [2 * math.pi * turn + side for turn in range(turns) for side in (angle, 2 * math.pi - angle)]
+        return rate * sum(max(ring.line_load(one), 0.0) for one in angles)
+
+    downwards = [one for one in element.found.contacts if 0 < one.place % (2 * math.pi) < math.pi]
+    depth, where = max((passes(one.place % (2 * math.pi)), one.place % (2 * math.pi)) for one in downwards)
+    lost = len(element.found.contacts) / ring.points
+    mean = element.found.mean(lambda one: one.line_load(element.modulus) * abs(one.speeds[0])) * lost
+    peak = element.found.mean(lambda one: one.hertz(element.modulus).maximum_pressure * abs(one.speeds[0])) * lost
+    hour = 3600 * rate * 1e6
+    return (
+        f"liner {1e6 * cycles * depth:.3g} um at the ring's place of crank angle {math.degrees(where):.3g} deg, ring "
+        f"{hour * mean / ring.height:.3g} um on the mean over its face ({hour * peak:.3g} um at the line of contact "
+        "while the face is new)"
+    )
 
 
 def worn_volume_rate(element: Element) -> float:
@@ -44,7 +78,7 @@ def worn_volume_rate(element: Element) -> float:
 
 
 def particles_per_hour(element: Element) -> str:
-    """Return the number of particles per hour in words: worn volume over mean particle volume."""
+    """Return worn volume per hour in words, and the number of particles by their mean volume where it is given."""
     rate, one = 3600 * worn_volume_rate(element), element.model.mean_particle_volume
     if element.model.specific_wear_rate is None:
         return "not known: give specific_wear_rate, and mean_particle_volume"
@@ -53,4 +87,4 @@ def particles_per_hour(element: Element) -> str:
     worn = f"{1e9 * rate:.3g} mm^3 of {'the bush' if isinstance(element.model, PlainBushModel) else 'both bodies'}"
     if one is None:
         return f"{worn}; for a number of particles give mean_particle_volume, measured or from kind wear"
-    return f"{worn}, {particle_number(rate, one):.3g} of {1e18 * one:.3g} um^3 each"
+    return f"{worn}, {particle_number(rate, one):.3g} particles of {1e18 * one:.3g} um^3 each"

@@ -106,6 +106,19 @@ def _branches(element: Element, contacts: Sequence[Any]) -> dict[str, list[int]]
     return {name: sorted(rows, key=lambda i: contacts[i].place) for name, rows in found.items()}
 
 
+def _broken(contacts: Sequence[Any], rows: Sequence[int], element: Element, values: Sequence[float]) -> tuple[Any, Any]:
+    """Return abscissas and values of a curve over solved contacts, with a gap over places without a steady film."""
+    against = [one.place for one in element.found.contacts if abs(one.slide_roll_ratio) > 2]
+    x, y = [], []
+    for i, after in zip(rows, [*rows[1:], None], strict=True):
+        x.append(_abscissa(element, contacts[i].place))
+        y.append(values[i])
+        if after is not None and any(contacts[i].place < place < contacts[after].place for place in against):
+            x.append(math.nan)
+            y.append(math.nan)
+    return x, y
+
+
 def _loads(element: Element, axes: Any) -> None:
     """Draw load and Hertz pressure over the path."""
     contacts = element.found.contacts
@@ -150,10 +163,10 @@ def _friction(element: Element, known: Sequence[Running], axes: Any) -> None:
     right = axes.twinx()
     contacts = [one.contact for one in known]
     for number, rows in enumerate(_branches(element, contacts).values()):
-        x = [_abscissa(element, contacts[i].place) for i in rows]
         dash = ("-", "--")[number % 2]
-        axes.plot(x, [abs(known[i].friction) for i in rows], dash, marker=".", color="C0")
-        right.plot(x, [known[i].power for i in rows], dash, marker=".", color="C1")
+        friction, power = [abs(one.friction) for one in known], [one.power for one in known]
+        axes.plot(*_broken(contacts, rows, element, friction), dash, marker=".", color="C0")
+        right.plot(*_broken(contacts, rows, element, power), dash, marker=".", color="C1")
     axes.set_ylim(bottom=0)
     axes.set_ylabel("friction coefficient\n(magnitude)", color="C0")
     right.set_ylabel("friction power (W)", color="C1")
@@ -164,15 +177,15 @@ def _temperatures(element: Element, known: Sequence[Running], axes: Any) -> None
     """Draw temperatures of oil and surfaces over the path."""
     contacts = [one.contact for one in known]
     for number, rows in enumerate(_branches(element, contacts).values()):
-        x = [_abscissa(element, contacts[i].place) for i in rows]
         dash = ("-", "--")[number % 2]
         for name, values, colour in (
-            ("oil, mean in the contact", [known[i].oil for i in rows], "C0"),
-            ("surface, highest", [known[i].surface for i in rows], "C3"),
+            ("oil, mean in the contact", [one.oil for one in known], "C0"),
+            ("surface, highest", [one.surface for one in known], "C3"),
         ):
             if all(value is not None for value in values):
-                axes.plot(x, [value - ZERO_CELSIUS for value in values if value is not None], dash, marker=".",
-                          color=colour, label=None if number else name)  # fmt: skip
+                celsius = [value - ZERO_CELSIUS for value in values if value is not None]
+                axes.plot(*_broken(contacts, rows, element, celsius), dash, marker=".", color=colour,
+                          label=None if number else name)  # fmt: skip
     axes.set_ylabel("temperature (°C)")
     if axes.get_legend_handles_labels()[0]:
         axes.legend(frameon=False, fontsize="small")

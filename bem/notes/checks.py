@@ -156,9 +156,10 @@ YIELDS = define(
             "Hertz' pressure {pressure:si Pa} is {ratio:.3g} times that at which it begins to yield, {onset:si Pa}: "
             "elastic stresses there are too high, and the first loadings leave residual stresses."
         ),
-        "element": (
+        "element": Reason(
             "It does at {places} of {all} places: Hertz' pressure is {ratio:.3g} times that at which yield begins, "
-            "{onset:si Pa}, at {place}; contacts here and in scenes are elastic."
+            "{onset:si Pa}, at {place}; contacts here and in scenes are elastic.",
+            headline="The softer body yields below its surface at {place}.",
         ),
         "solved": "Elastic von Mises stresses reach {stress:si Pa} and are too high in {volume:.3g} um^3.",
         "layers": Reason(

@@ -1,15 +1,20 @@
 """A cam made point by point as the envelope of its follower's face, and turned: contact, curvature and speeds."""
 
 import math
+import re
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from bem import InputError
+from bem.elements.answer import answer
 from bem.elements.cam_follower import CamModel
+from bem.elements.cases import columns as case_columns
 from bem.elements.element import element_template, load_element
 from bem.elements.element_wear import worn_volume_rate
+from bem.elements.figure import element_figure
+from bem.elements.running import run_all
 
 CAM = {
     "element": "cam-follower", "base_radius": "20 mm", "lift": "7.5 mm", "half_angle": "80 deg", "width": "14 mm",
@@ -110,8 +115,32 @@ def test_means_over_the_flanks_are_of_second_order():
 
 
 def test_a_hollow_flank_is_refused():
-    with pytest.raises(InputError, match="cam-follower: a flat follower cannot touch a hollow flank"):
+    with pytest.raises(InputError, match="cam-follower: a flat follower cannot touch a hollow flank") as refused:
         load_element(CAM | {"half_angle": "50 deg"})
+    (least,) = map(float, re.findall(r"a base_radius above ([\d.]+) mm", str(refused.value)))
+    load_element(CAM | {"half_angle": "50 deg", "base_radius": f"{least * 1.001} mm"})
+    with pytest.raises(InputError, match="hollow flank"):
+        load_element(CAM | {"half_angle": "50 deg", "base_radius": f"{least * 0.999} mm"})
+
+
+@pytest.mark.internal
+def test_the_unsolved_nose_is_said_and_has_no_safety():
+    """Its films by the formula are the thinnest: no micropitting safety, and no curve across it in the figure."""
+    oil = {"grade": "SAE 30", "temperature": "90 degC"}
+    element = load_element(CAM | {"oil": oil, "rms_roughness": "300 nm", "permissible_film_ratio": 0.3, "points": 9})
+    runs = run_all(element)
+    ratios = element.columns()["film_over_roughness"]
+    nose = [i for i, one in enumerate(element.found.contacts) if abs(one.slide_roll_ratio) > 2]
+    said = dict(answer(element, runs))
+    least = min(ratios[i] for i in nose)
+    assert f"Not solved at {len(nose)} of 9 positions" in said["lambda ratio"]
+    assert f"by the formula lambda is {least:.2g} at" in said["lambda ratio"]
+    assert said["micropitting"].startswith("not known") == (least < min(one.film_ratio for one in runs))
+    assert math.isnan(case_columns([element], [runs]).get("micropitting_safety", [math.nan])[0])
+    panels = {axes.get_ylabel().split(" (")[0].split("\n")[0]: axes for axes in element_figure(element, runs).axes}
+    lines = [line for name in ("friction coefficient", "friction power", "temperature") for line in panels[name].lines]
+    assert len(lines) == 4
+    assert all(np.isnan(line.get_ydata()).sum() == 1 for line in lines)
 
 
 def test_the_template_is_a_good_one(tmp_path):

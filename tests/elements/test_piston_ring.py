@@ -1,6 +1,7 @@
 """A piston ring from its engine: motion by differences, forces by their balance, films against Reynolds' equation."""
 
 import math
+import re
 import tomllib
 from itertools import pairwise
 
@@ -11,6 +12,7 @@ from scipy.integrate import quad
 from bem import InputError, load_scene, run_scene
 from bem.elements.answer import answer
 from bem.elements.element import element_template, load_element
+from bem.elements.element_wear import worn_volume_rate
 from bem.elements.running import run_contact
 from bem.reference_solutions.line_film import InletFilm, MartinFilm, squeeze_thickness
 
@@ -115,8 +117,19 @@ def test_over_the_cycle():
     assert len(element.found.contacts) == 12
     runs = [run_contact(element, one) for one in element.found.contacts[:3]]
     said = dict(answer(element, runs))
-    assert "body 2 not known" in said["wear per hour"]
-    assert "of 0.1 um^3 each" in said["particles per hour"]
+    worn, model = said["wear per hour"], element.model
+    mean, new = map(float, re.search(r"ring ([\d.e-]+) um on the mean over its face \(([\d.e-]+) um", worn).groups())
+    volume = 3600 * worn_volume_rate(element)  # half of it is the ring's
+    assert 1e-6 * mean * model.height * math.pi * model.bore == pytest.approx(0.5 * volume, rel=5e-3, abs=0)
+    assert new > mean
+    # every place of the liner that is passed: its depth over the stroke is the other half, per turn of 4 strokes
+    depth = float(re.search(r"liner ([\d.e-]+) um", worn).group(1))
+    angle = np.linspace(0, 4 * math.pi, 4001)
+    passed = np.array([max(model.line_load(one), 0) * abs(model.piston_speed(one)) / model.speed for one in angle])
+    liner = 1e-18 * np.trapezoid(passed, angle) * 3600 * model.speed / model.cycle * math.pi * model.bore
+    assert liner == pytest.approx(0.5 * volume, rel=0.08, abs=0)  # 12 places over the cycle
+    assert 1e-6 * depth > liner / (math.pi * model.bore * model.stroke)  # the deepest place, more than the mean
+    assert "of 0.1 um^3 each" in said["worn volume per hour"]
     notes = element.notes()
     assert any((note.code, note.values.get("reason")) == ("film-by-squeeze", "ring") for note in notes)
     assert not any((note.code, note.values.get("reason")) == ("ring-at-edge", "film") for note in notes)

@@ -610,7 +610,7 @@ def test_particles_of_a_bush_are_its_worn_volume():
     """Archard's law, k F v; the shaft does not wear."""
     element = load_element(WORN | {"mean_particle_volume": "1 um^3"})
     volume = 1e-15 * 500 * element.model.sliding_speed * 3600
-    said = dict(answer(element, ()))["particles per hour"]
+    said = dict(answer(element, ()))["worn volume per hour"]
     assert said.startswith(f"{1e9 * volume:.3g} mm^3 of the bush, {volume / 1e-18:.3g} of")
 
 
