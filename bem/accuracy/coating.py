@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 from bem.accuracy.bars import DEPTHS, GRID, ErrorBars
 from bem.accuracy.coarsened import Coarser, ContactCase, edge_fraction, regime_of
 from bem.accuracy.contact import peak_rise, touches_sharply
-from bem.accuracy.richardson import Row, Table, rows
+from bem.accuracy.edge import EDGE
+from bem.accuracy.richardson import Table, rows
 from bem.grid import FloatArray
 from bem.materials import Body
 from bem.notes.accuracy import NoBar, no_error_bar
@@ -89,22 +90,6 @@ Pressures that are constant on cells have waves of the length of a cell, whose s
 and falls as exp(-2 pi depth / cell). Of cylinders and balls on one layer of 0.35 and 2.5 times the substrate's modulus,
 0.3 to 0.7 cells thick, the highest shear at the centres is too low by 4 to 12 times that factor.
 """
-
-EDGE = Row(
-    (0.75, 0.4, 0.4),
-    "First order: the tension at the edge of the contact, extrapolated from the cells beside it. The law of a straight "
-    "edge on layers of several cells misses a part of what it adds to the points, and of the pressure next to the edge "
-    "where the layer is thinner than a cell.",
-    order=1,
-    floors={
-        "cusp": (0.35, 0.25, 0.15),
-        "pressed": (0.03, 0.05, 0.07),
-        "edge": (0.01, 0.03, 0.2),
-    },
-)
-"""Rule of `layer_max_tension` at the surface where it is highest at the edge of the contact. Floors: on what the edge
-adds to the tension of points (cusp), on the pressure next to the edge (pressed), and on the tension times the fraction
-within a cell of the edge (edge)."""
 
 _STEEPER = 3.0
 """Factor on the rise of a straight line through two depths to an end of their layer: tension steepens towards the edge
@@ -187,7 +172,7 @@ def _substrate_bars(
 def with_one_estimate(bars: ErrorBars, below: StressSummary, body: Body) -> ErrorBars:
     """Return the bars with one error for the highest von Mises stress of all and for that of its layer, or of the body
     below: the larger of both, as they are the same stress."""
-    medium, layers = body.medium_at(float(below.depths[np.argmax(below.highest)])), len(body.layers)
+    medium, layers = body.medium_at(below.most_stressed_depth), len(body.layers)
     name = SUBSTRATE if medium == layers else "layer_max_von_mises"
     own, whole = bars.values.get(name), bars.values.get("max_von_mises")
     if own is None or whole is None:
@@ -242,11 +227,14 @@ def _errors_at_depths(
         "pressed": {"layer_max_tension": pressed},
     }
     errors: dict[str, FloatArray] = RULES.errors(found, other, indicators, regime=regime)
-    name = "layer_max_tension"
-    cusp = float(fine.edge.tension - fine.of_points.principal[0])
-    if cusp > 0:
-        at_edge = {"cusp": cusp, "pressed": fine.edge.pressure, "edge": edge[name][0]}
-        errors[name][0] = EDGE.error(found[name][0] - other[name][0], at_edge, regime)
+    at_edge = (
+        ("layer_max_tension", fine.edge.tension - fine.of_points.principal[0], fine.edge.pressure),
+        ("layer_max_von_mises", fine.edge.von_mises - fine.of_points.von_mises[0], fine.edge.von_mises_pressure),
+    )
+    for name, cusp, next_to_edge in at_edge:
+        if cusp > 0:
+            sizes = {"cusp": float(cusp), "pressed": next_to_edge, "edge": edge[name][0]}
+            errors[name][0] = EDGE.error(found[name][0] - other[name][0], sizes, regime)
     return errors
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from bem.accuracy.bars import DEPTHS, GRID, PRESSING, PRESSING_FACTOR, ErrorBars
 from bem.accuracy.coarsened import Coarser, ContactCase, edge_fraction, regime_of
 from bem.accuracy.contact import touches_sharply
+from bem.accuracy.edge import EDGE
 from bem.accuracy.richardson import Table, rows
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
@@ -109,8 +110,8 @@ def _of_highest_stress(
 ) -> ErrorBars:
     if coarser.solution is None or coarser.grid is None:
         return ErrorBars(dict.fromkeys(NAMES))
-    depths, highest = below.depths, below.highest
-    k, few = int(np.argmax(highest)), len(depths) < 3  # one or two depths are chosen, not searched
+    depths, highest, few = below.depths, below.highest, len(below.depths) < 3  # one or two are chosen, not searched
+    k = 0 if below.highest_at_edge else int(np.argmax(highest))
     if k == len(depths) - 1 and not few:
         return ErrorBars.unknown(NAMES, NoBar.DEEPEST_DEPTH)
     near = bool(depths[k] < np.sqrt(case.grid.cell_area))
@@ -121,10 +122,14 @@ def _of_highest_stress(
     if k == 0 and depths[0] > 0 and not few:
         return ErrorBars.unknown(NAMES, NoBar.SHALLOWEST_DEPTH)
     kept = depths[sorted({*range(k % 2, len(depths), 2), max(k - 1, 0), min(k + 1, len(depths) - 1)})]
-    there = _highest_below(coarser.solution.pressure, coarser.grid, body, kept, rubbed)
+    if below.highest_at_edge:
+        there = summarise_stress(coarser.solution.pressure, coarser.grid, body, depths[:1], **rubbed)
+    else:
+        there = _highest_below(coarser.solution.pressure, coarser.grid, body, kept, rubbed)
     rise, interval = (0.0, 0.0) if few else _between(below, k, body)
+    own = below.max_von_mises if below.highest_at_edge else highest[k]
     for interface in () if few else body.interfaces:
-        above = _STEEPER * (_extrapolated(depths, highest, interface) - highest[k])
+        above = _STEEPER * (_extrapolated(depths, highest, interface) - own)
         if above > 0:
             rise, interval = max(rise, float(above)), max(interval, abs(interface - float(depths[k])))
     edge = {"max_von_mises": edge_fraction(case) * below.max_von_mises}
@@ -134,6 +139,11 @@ def _of_highest_stress(
         GRID: RULES.errors(found, coarse, indicators, regime=regime_of(case)),
         DEPTHS: {"max_von_mises": rise, "max_von_mises_depth": interval},
     }
+    if below.edge is not None and below.highest_at_edge:
+        cusp, whole = below.max_von_mises - float(highest[0]), edge["max_von_mises"]
+        sizes = {"cusp": cusp, "pressed": below.edge.von_mises_pressure, "edge": whole}
+        difference = below.max_von_mises - there.max_von_mises
+        parts[GRID]["max_von_mises"] = EDGE.error(difference, sizes, regime_of(case))
     if fewer is not None:
         half = _highest_below(fewer[0], coarser.grid, body, kept, {"traction": fewer[1]})
         parts[PRESSING] = {n: PRESSING_FACTOR * abs(getattr(there, n) - getattr(half, n)) for n in NAMES}

@@ -2,7 +2,7 @@
 
 Four stresses are not those of points:
 
-1. Tension at the surface has a cusp at the edge of the contact (`edge_tension`).
+1. Tension and von Mises stress at the surface have a cusp at the edge of the contact (`edge_tension`).
 2. Tension across an interface may be highest beyond a free edge of the grid (`layer_stresses.with_tension_beyond`).
 3. So may the highest principal stress of a layer, where that of the points is on the outermost row of a free axis.
 4. On a doubly periodic grid the pressure is a sum of waves. Beside the contact it alternates around zero between the
@@ -43,7 +43,7 @@ class CoatingMaxima:
     highest : with those at the edge of the contact and beyond the grid.
     of_points : of points alone.
     smoothed : (nz,) tension across the plane without waves of two cells [Pa]; that of points on grids with a free axis.
-    edge : highest tension at the edge of the contact; minus infinity without a depth at the surface.
+    edge : highest stresses at the edge of the contact; minus infinity without a depth at the surface.
     """
 
     highest: DepthMaxima
@@ -71,7 +71,7 @@ def coating_maxima(
     pressure, grid, body, friction : of the stresses, as `bem.stress.subsurface_stress` takes them.
     """
     points = depth_maxima(stress, von_mises, depths, body)
-    smoothed, edge = points.tension, EdgeTension(-math.inf, 0.0)
+    smoothed, edge = points.tension, EdgeTension()
     highest = points
     if all(grid.periodic):
         near = points.depths < math.sqrt(grid.cell_area)
@@ -87,7 +87,9 @@ def coating_maxima(
         edge = edge_tension(stress[:, 0], pressure, grid, body, friction)
         principal = highest.principal.copy()
         principal[0] = max(principal[0], edge.tension)
-        highest = replace(highest, principal=principal)
+        von_mises_stress = highest.von_mises.copy()
+        von_mises_stress[0] = max(von_mises_stress[0], edge.von_mises)
+        highest = replace(highest, principal=principal, von_mises=von_mises_stress)
     return CoatingMaxima(highest, points, smoothed, edge)
 
 

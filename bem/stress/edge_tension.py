@@ -1,4 +1,4 @@
-"""Highest tension at the surface of a layer, at the edge of the contact: between the centres of cells.
+"""Highest stresses at the surface, at the edge of the contact: between the centres of cells.
 
 Towards the edge the pressure falls like p = K sqrt(d), with d the distance inside. Inside, the stress along the surface
 is a local part, proportional to the pressure of the point, plus a part that is smooth up to the edge. Under pressure
@@ -18,7 +18,10 @@ next cell (2):
 3. Stress under friction: smooth part at cells 1 and 2, extrapolated to the edge. A pressure that is constant on cells
    (or is a sum of waves) leaves an error at both, which is linear in p1 and p2, since all are linear in s; the error is
    subtracted. Traction along the normal has twice the nn of the nt under traction along the edge.
-4. The highest principal stress of the sum. Beside the contact the surface carries no traction.
+4. The highest principal stress and the von Mises stress of the sum. Beside the contact the surface carries no traction.
+
+Under a given traction q in place of friction x p, the ratio q / p of cell 1 is the friction there. Edges at which that
+of cell 2 is another one stick, and are left out.
 
 The constants are those of a cylinder (cells) and of a wave (waves) with 60 cells to half the contact's width, on twenty
 places of the edge between cells: p1 and p2 are linear in s to 1e-3, the error in p1 and p2 to 1e-4 of K sqrt(h).
@@ -31,7 +34,7 @@ closed forms of cylinder and ball.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,16 +71,27 @@ _ALONG_NORMAL = 0.7
 """Least cosine between link and normal of the edge: one of two axes has it."""
 
 
+_SLIPPING = 0.1
+"""Difference of traction over pressure between cells 1 and 2, over that of cell 1, up to which an edge slips."""
+_UNKNOWN = (math.nan, math.nan)
+
+
 @dataclass(frozen=True)
 class EdgeTension:
-    """Highest tension at the edges of the contact.
+    """Highest stresses at the edges of the contact.
 
     tension : highest principal stress [Pa]; minus infinity where no edge is resolved.
     pressure : of the second cell inside the edge with the highest tension, about K sqrt(h) [Pa].
+    von_mises, von_mises_pressure : highest von Mises stress, and the pressure as above [Pa].
+    place, von_mises_place : x and y of the highest tension and von Mises stress [m]; not a number without an edge.
     """
 
-    tension: float
-    pressure: float
+    tension: float = -math.inf
+    pressure: float = 0.0
+    von_mises: float = -math.inf
+    von_mises_pressure: float = 0.0
+    place: tuple[float, float] = _UNKNOWN
+    von_mises_place: tuple[float, float] = _UNKNOWN
 
 
 @dataclass(frozen=True)
@@ -106,17 +120,24 @@ class _Local:
 
 
 def edge_tension(
-    surface: FloatArray, pressure: FloatArray, grid: Grid, body: Body, friction: float = 0.0
+    surface: FloatArray,
+    pressure: FloatArray,
+    grid: Grid,
+    body: Body,
+    friction: float = 0.0,
+    traction: FloatArray | None = None,
 ) -> EdgeTension:
-    """Return the highest tension at the edges of the contact, of edges with two cells of rising pressure inside.
+    """Return the highest stresses at the edges of the contact, of edges with two cells of rising pressure inside.
 
     Parameters
     ----------
     surface : (6, nx, ny), stress at the surface [Pa].
-    pressure, grid, body, friction : of the stress, as `bem.stress.subsurface_stress` takes them.
+    pressure, grid, body, friction, traction : of the stress, as `bem.stress.subsurface_stress` takes them.
     """
     pressed = surface
-    if friction != 0:
+    if traction is None and friction != 0:
+        traction = np.array([friction * pressure, np.zeros_like(pressure)])
+    if traction is not None:
         pressed = subsurface_stress(pressure, grid, body, [0.0])[:, 0]
     stresses = pressed[_IN_PLANE], (surface - pressed)[_IN_PLANE]
     padded = pressure
@@ -124,11 +145,17 @@ def edge_tension(
         width = [(_MARGIN, _MARGIN) if one == axis else (0, 0) for one in (0, 1)]
         padded = np.pad(padded, width, mode="wrap" if periodic else "constant")
     found = [
-        _at_edges(_edge_links(padded, grid, axis, outwards), stresses, grid, body, friction)
+        _at_edges(_edge_links(padded, grid, axis, outwards), stresses, grid, body, traction)
         for axis in (0, 1)
         for outwards in (-1, 1)
     ]
-    return max(found, key=lambda one: one.tension)
+    highest, von_mises = max(found, key=lambda one: one.tension), max(found, key=lambda one: one.von_mises)
+    return replace(
+        highest,
+        von_mises=von_mises.von_mises,
+        von_mises_pressure=von_mises.von_mises_pressure,
+        von_mises_place=von_mises.von_mises_place,
+    )
 
 
 _IN_PLANE = [0, 1, 5]
@@ -191,14 +218,19 @@ def _edge_links(padded: FloatArray, grid: Grid, axis: int, outwards: int) -> _Ed
 
 
 def _at_edges(
-    links: _EdgeLinks, stresses: tuple[FloatArray, FloatArray], grid: Grid, body: Body, friction: float
+    links: _EdgeLinks,
+    stresses: tuple[FloatArray, FloatArray],
+    grid: Grid,
+    body: Body,
+    traction: FloatArray | None,
 ) -> EdgeTension:
-    """Return the highest tension at the edges that links cross.
+    """Return the highest stresses at the edges that links cross.
 
-    stresses : (3, nx, ny) xx, yy, xy at the surface under pressure, and under friction [Pa].
+    stresses : (3, nx, ny) xx, yy, xy at the surface under pressure, and under the traction [Pa].
+    traction : (2, nx, ny) [Pa]; None without one.
     """
     if not links.first.size:
-        return EdgeTension(-math.inf, 0.0)
+        return EdgeTension()
     pressed, rubbed = stresses
     law = _WAVES if all(grid.periodic) else _CELLS
     local = _Local.of(body, grid.spacing[links.axis])
@@ -207,22 +239,42 @@ def _at_edges(
     inside = _at(pressed, links.first) - first * _tensor(links.normal, local.along, local.across, 0.0)
     share = np.clip(position, 0.0, 1.0)
     total = (1 - share) * inside + share * _at(pressed, links.beyond)
-    if friction != 0:
-        along, across = 0.5 * friction * links.normal[0], -0.5 * friction * links.normal[1]  # traction is along x
+    slips = np.full(first.shape, True)
+    if traction is not None:
+        (qx, qy), other = _at(traction, links.first) / first, _at(traction, links.second) / second
+        slips = np.hypot(qx - other[0], qy - other[1]) <= _SLIPPING * np.hypot(qx, qy)
+        nx, ny = links.normal
+        along, across = 0.5 * (qx * nx + qy * ny), 0.5 * (qy * nx - qx * ny)
         pulled = _tensor(links.normal, along * local.pulled, along * local.pulled_across, across * local.sheared)
         near, far = (
             _at(rubbed, cells) - (error[0] * first + error[1] * second) * pulled
             for cells, error in ((links.first, law.first_error), (links.second, law.second_error))
         )
         total += near + np.where(third > second, position, 0.0) * (near - far)
+    if not slips.any():
+        return EdgeTension()
     xx, yy, xy = total
-    tension = 0.5 * (xx + yy) + np.hypot(0.5 * (xx - yy), xy)
-    best = int(np.argmax(tension))
-    return EdgeTension(float(tension[best]), float(second[best]))
+    tension = np.where(slips, 0.5 * (xx + yy) + np.hypot(0.5 * (xx - yy), xy), -np.inf)
+    von_mises = np.where(slips, np.sqrt(xx * xx - xx * yy + yy * yy + 3 * xy * xy), -np.inf)
+    best, highest = int(np.argmax(tension)), int(np.argmax(von_mises))
+
+    def place_of(k: int) -> tuple[float, float]:
+        place = [float(grid.x[links.first[0, k]]), float(grid.y[links.first[1, k]])]
+        place[links.axis] += float(position[k]) * links.outwards * grid.spacing[links.axis]
+        return place[0], place[1]
+
+    return EdgeTension(
+        float(tension[best]),
+        float(second[best]),
+        float(von_mises[highest]),
+        float(second[highest]),
+        place_of(best),
+        place_of(highest),
+    )
 
 
 def _at(field: FloatArray, cells: NDArray[np.intp]) -> FloatArray:
-    """Return a field (3, nx, ny) at cells (2, m)."""
+    """Return a field (n, nx, ny) at cells (2, m)."""
     values: FloatArray = field[:, cells[0], cells[1]]
     return values
 

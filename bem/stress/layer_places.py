@@ -1,7 +1,7 @@
 """Places of the highest stresses of a coating: x, y and depth, of each layer and interface.
 
-A place is that of a point of the grid. Where the highest stress lies between points or beyond the grid
-(`coating_maxima`), x and y are not a number.
+A place is that of a point of the grid, or of the edge of the contact between points (`edge_tension`). Where the highest
+stress lies beyond the grid (`coating_maxima`), x and y are not a number.
 """
 
 from __future__ import annotations
@@ -63,6 +63,9 @@ def layer_places(
         ix, iy = highest_point(plane)
         found[f"{name}_x"][number], found[f"{name}_y"][number] = grid.x[ix], grid.y[iy]
 
+    def store_edge(name: str, number: int, place: tuple[float, float]) -> None:
+        found[f"{name}_x"][number], found[f"{name}_y"][number] = place
+
     for number, interface in enumerate(body.interfaces):
         k = int(np.argmin(np.abs(highest.depths - interface)))
         store_place("interface_max_shear", number, np.hypot(stress[3, k], stress[4, k]))
@@ -73,11 +76,16 @@ def layer_places(
             continue
         k = int(own[np.argmax(highest.von_mises[own])])
         found["layer_max_von_mises_depth"][number] = highest.depths[k]
-        store_place("layer_max_von_mises", number, von_mises[k])
+        if k == 0 and highest.von_mises[0] > points.von_mises[0]:
+            store_edge("layer_max_von_mises", number, maxima.edge.von_mises_place)
+        else:
+            store_place("layer_max_von_mises", number, von_mises[k])
         k = int(own[np.argmax(highest.principal[own])])
         if highest.principal[k] > 0:
             found["layer_max_tension_depth"][number] = highest.depths[k]
-            if highest.principal[k] - points.principal[k] <= _SAME * highest.principal[k]:
+            if k == 0 and highest.principal[0] == maxima.edge.tension > points.principal[0]:
+                store_edge("layer_max_tension", number, maxima.edge.place)
+            elif highest.principal[k] - points.principal[k] <= _SAME * highest.principal[k]:
                 store_place("layer_max_tension", number, highest_principal(stress[:, k]))
     return LayerPlaces(**found)
 

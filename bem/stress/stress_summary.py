@@ -6,7 +6,8 @@ of the yield stress inside cells, and the yielded volume is its integral over de
 
 The maximum falls back to fewer dimensions in three cases:
 
-- within one cell of the surface the stress below constant cell pressures is not smooth: maximum of the points;
+- within one cell of the surface the stress below constant cell pressures is not smooth: maximum of the points, or, with
+  a depth at the surface, the stress at the edge of the contact where that is higher (`edge_tension`);
 - at the edge of a free grid, or where the paraboloid has no maximum within a cell: maximum of the points;
 - next to an interface of layers, where stresses jump, or next to a depth without such a paraboloid: maximum of the
   plane, at the depth of the points.
@@ -27,6 +28,7 @@ from numpy.typing import ArrayLike
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.numerics.subcell import area_above, around, highest_along, top
+from bem.stress.edge_tension import EdgeTension, edge_tension
 from bem.stress.fields import subsurface_stress, von_mises, von_mises_planes
 
 _DEPTHS_BESIDE = 2
@@ -51,6 +53,8 @@ class StressSummary:
     max_von_mises, max_von_mises_depth : maximum von Mises stress between points and depths [Pa], and its depth [m].
     yielded_volume : integral of the yielded area from the first to the last depth [m^3]; None where no depth has a
         yield stress.
+    edge : highest stresses at the edges of the contact; None without a depth at the surface, and of a body without
+        layers and traction, whose von Mises stress is never highest there.
     counted_yielded_volume : integral of the counted area by the trapezoidal rule [m^3].
     """
 
@@ -63,6 +67,17 @@ class StressSummary:
     max_von_mises: float
     max_von_mises_depth: float
     yielded_volume: float | None
+    edge: EdgeTension | None = None
+
+    @property
+    def highest_at_edge(self) -> bool:
+        """True if the maximum von Mises stress is that at the edge of the contact, higher than at all points."""
+        return self.edge is not None and self.edge.von_mises >= self.max_von_mises
+
+    @property
+    def most_stressed_depth(self) -> float:
+        """Depth [m] whose points, or edge of the contact, have the maximum von Mises stress."""
+        return float(self.depths[0 if self.highest_at_edge else int(np.argmax(self.highest))])
 
     @property
     def max_von_mises_of_points(self) -> float:
@@ -121,6 +136,12 @@ def summarise_stress(
             after(i + 1)
     limited = bool(np.isfinite(limits).any())
     stress_top, depth_top = _highest(field, places, highest, grid, body)
+    edge = None
+    if places[0] == 0 and (friction != 0 or traction is not None or body.layers):
+        surface = subsurface_stress(pressure, grid, body, places[:1], **asked) if stress is None else stress
+        edge = edge_tension(surface[:, 0], pressure, grid, body, **asked)
+        if edge.von_mises > stress_top:
+            stress_top, depth_top = edge.von_mises, 0.0
     return StressSummary(
         depths=places,
         von_mises=field,
@@ -131,6 +152,7 @@ def summarise_stress(
         max_von_mises=stress_top,
         max_von_mises_depth=depth_top,
         yielded_volume=_volume(field, places, yielded, highest, limits, grid, body) if limited else None,
+        edge=edge,
     )
 
 

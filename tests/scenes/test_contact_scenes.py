@@ -339,6 +339,16 @@ def test_a_residual_stress_beyond_the_yield_stress_is_refused():
         run("coated-sphere", ["lower.layer.residual_stress=-9 GPa"])
 
 
+def test_the_highest_tension_at_the_edge_of_the_contact_has_a_place_on_the_edge():
+    """Extrapolated between the cells (`bem.stress.edge_tension`): on the circle of the contact."""
+    _, outcome, _ = run("coated-sphere", ["grid.shape=48", "contact.friction=0.4", *COATED[2:]])
+    told = outcome.summary
+    assert told["layer_max_tension_depth_m"] == [0.0]
+    radius = np.hypot(told["layer_max_tension_x_m"][0], told["layer_max_tension_y_m"][0])
+    assert radius == pytest.approx(np.sqrt(told["contact_area_m2"] / np.pi), rel=0.02, abs=0)
+    assert told["layer_max_tension_x_m"][0] < 0
+
+
 def test_coatings_have_depths_and_stresses_by_layer_and_interface():
     layers = 'lower.layers=[{material="dlc",thickness="2 um"},{material="tungsten-carbide",thickness="0.5 um"}]'
     settings = [*COATED, "lower.layer=", layers]

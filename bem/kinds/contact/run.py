@@ -205,7 +205,7 @@ def _coating_fields(
 
 def _most_stressed(below: StressSummary, body: Body) -> int:
     """Return the number of the layer with the highest von Mises stress of all, or that of layers for the body below."""
-    return body.medium_at(float(below.depths[np.argmax(below.highest)]))
+    return body.medium_at(below.most_stressed_depth)
 
 
 def _cut_off(scene: ContactScene, grid: Grid, solution: ContactSolution) -> tuple[Note, ...]:
