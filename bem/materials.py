@@ -448,11 +448,25 @@ OTHER_NAMES = {
     "nylon": "pa66",
     "teflon": "ptfe",
     "acetal": "pom",
-    "100cr6": "steel-52100",
+    **dict.fromkeys(("100cr6", "1.3505", "suj2", "suj-2", "aisi-52100", "sae-52100", "gcr15"), "steel-52100"),
+    **dict.fromkeys(("18crnimo7-6", "17crnimo6", "1.6587"), "case-hardened-steel"),
+    **dict.fromkeys(("16mncr5", "20mncr5", "1.7131", "1.7147"), "case-hardened-steel"),  # other case, same constants
+    **dict.fromkeys(("31crmov9", "1.8519"), "nitrided-steel"),
+    **dict.fromkeys(("gjl", "en-gjl", "lamellar-cast-iron"), "grey-cast-iron"),
+    **dict.fromkeys(("gjs", "en-gjs", "ductile-iron"), "nodular-cast-iron"),
+    "si3n4": "silicon-nitride",
+    "al2o3": "alumina",
+    "zro2": "zirconia",
+    "sic": "silicon-carbide",
+    "wc": "tungsten-carbide",
     "bronze": "phosphor-bronze",
     "pib": "polyisobutylene",
+    **dict.fromkeys(("chromium", "chrome"), "cr"),
+    "chromium-nitride": "crn",
+    "titanium-nitride": "tin",
+    "diamond-like-carbon": "dlc",
 }
-"""Common names of materials of the catalogue, by which `bem materials` finds them."""
+"""Common names of materials of the catalogue, in small letters with hyphens."""
 
 
 class Catalogue(dict[str, CatalogueEntry]):
@@ -460,12 +474,13 @@ class Catalogue(dict[str, CatalogueEntry]):
 
     def meant(self, word: str) -> str:
         """Return the name that a word stands for: case does not matter, and common names are known; else the word."""
-        name = word.strip().lower()
+        name = "-".join(word.strip().lower().replace("_", " ").split())
         spelling = {known.lower(): known for known in self}
         return spelling.get(OTHER_NAMES.get(name, name), word)
 
     def __missing__(self, name: object) -> CatalogueEntry:
-        hint = did_you_mean(name, self)
+        meant = self.meant(str(name))
+        hint = f' - did you mean "{meant}"?' if meant in self else did_you_mean(name, self)
         raise UnknownMaterialError(f"CATALOGUE[{name!r}]: no such material{hint}; allowed: {', '.join(sorted(self))}")
 
 

@@ -141,6 +141,14 @@ RANGES: tuple[UsualRange, ...] = (
         _LENGTHS,
     ),
     UsualRange(
+        "clearance", "m", 1e-7, 3e-3, ("clearance",), (("um", 1e-6), ("mm", 1e-3)),
+        "rolling bearings have 5 to 200 um, polymer bushes up to 1 mm",
+    ),
+    UsualRange(
+        "tilt of the rings", "rad", 1e-6, 5e-3, ("tilt",), (),
+        "catalogues permit some 1 mrad (3 minutes of arc) of cylindrical roller bearings",
+    ),
+    UsualRange(
         "load", "N", 1e-12, 1e7, ("load", "loads", "load_end", "force", "radial_load", "preload", "tension"),
         (("mN", 1e-3), ("uN", 1e-6)),
     ),

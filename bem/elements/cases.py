@@ -30,6 +30,8 @@ from bem.kinds.traction.along import columns_of
 from bem.scenes.paths import parse_key, put
 from bem.scenes.values import plain_value
 
+_LOADS = ("radial_load", "torque")
+"""Keys that hertz_pressure stands in place of."""
 JOURNAL = "journal_bearing_film_estimate [m]"
 """Column of the estimated film of a journal bearing in place of a film too thick for the model."""
 
@@ -45,7 +47,8 @@ def load_cases(source: str | Path, rows: str | Path) -> tuple[Element, ...]:
     columns = _columns_of(table, rows)
     found, messages = [], []
     for number, values in enumerate(zip(*columns.values(), strict=True), 1):
-        case = {**table, "name": f"{table['name']}-{number}"}
+        case = {key: value for key, value in table.items() if not _replaced(key, columns)}
+        case["name"] = f"{table['name']}-{number}"
         for name, value in zip(columns, values, strict=True):
             key = parse_key(name)
             assert key is not None
@@ -57,6 +60,13 @@ def load_cases(source: str | Path, rows: str | Path) -> tuple[Element, ...]:
     if messages:
         raise InputError(messages)
     return tuple(found)
+
+
+def _replaced(key: str, columns: Mapping[str, object]) -> bool:
+    """Return True for a key of the file in whose place a column gives the load: pressure for load or the reverse."""
+    return key not in columns and any(
+        key in (load, "hertz_pressure") and (load in columns or "hertz_pressure" in columns) for load in _LOADS
+    )
 
 
 def changed_keys(source: str | Path, rows: str | Path) -> dict[str, list[str]]:

@@ -30,13 +30,14 @@ from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
 from bem.notes.checks import SLOPES_LARGE, YIELDS
-from bem.notes.elements import NO_HEAT, OIL_FOLLOWS_BALANCE, SPEED_WITHOUT_UNIT, SURFACES_TOUCH
+from bem.notes.elements import NO_HEAT, OIL_FOLLOWS_BALANCE, SPEED_IN_TURNS, SPEED_WITHOUT_UNIT, SURFACES_TOUCH
 from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import with_unit
 from bem.scenes.checks.hertz import smooth_contact
 from bem.scenes.checks.plausible import notes_on_table
 from bem.scenes.oil import OilScene
 from bem.scenes.template import without_description
+from bem.scenes.units import turns_without_angle
 from bem.scenes.validate import nearest, show, validate
 
 MODELS: dict[str, type[ElementModel]] = {
@@ -329,8 +330,10 @@ class Element:
         return OIL_FOLLOWS_BALANCE(bulk=bulk - ZERO_CELSIUS, oil=oil.temperature - ZERO_CELSIUS)
 
     def speed_note(self) -> Note | None:
-        """Return a note on a speed of rotation without a unit; None of one that has it."""
+        """Return a note on a speed of rotation without a unit, or whose unit says no angle; None of others."""
         given = self.table.get("speed")
+        if turns_without_angle(given):
+            return SPEED_IN_TURNS(given=given, rpm=rpm(self.model.speed))  # type: ignore[attr-defined]
         if not isinstance(given, int | float):
             return None
         return SPEED_WITHOUT_UNIT(speed=float(given), rpm=rpm(float(given)))
@@ -586,6 +589,8 @@ def _of_element(kind: str, message: str) -> str:
             f'{key}: unknown key; write rms_roughness = "500 nm" of both surfaces together, sqrt(Sq1^2 + Sq2^2), Sq '
             "about 1.25 Ra"
         )
+    if key.startswith("profile =") and kind == "rolling-bearing":
+        return f"{message} (logarithmic: crowned or profiled rollers, whose ends fall away; straight: sharp ends)"
     return re.sub("^scene:", f"{kind}:", message).replace("at the top of the scene", "at the top of the file")
 
 

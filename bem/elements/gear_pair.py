@@ -74,8 +74,9 @@ class GearModel(ElementModel):
     @model_validator(mode="after")
     def _meshes(self) -> Self:
         if (self.torque is None) == (self.hertz_pressure is None):
-            given = "neither torque nor" if self.torque is None else "both torque and"
-            raise problem(f"{given} hertz_pressure given", 'one of them: torque = "30 N*m"')
+            if self.torque is None:
+                raise problem("neither torque nor hertz_pressure given", 'one of them: torque = "30 N*m"')
+            raise problem("both torque and hertz_pressure given", "one of them; delete the other")
         try:
             path = path_of_contact(self)
         except InputError as error:

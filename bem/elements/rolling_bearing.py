@@ -90,8 +90,9 @@ class BearingModel(ElementModel):
         if self.count * math.asin(self.diameter / pitch) > math.pi:
             raise problem(f"{self.count} elements do not fit on the pitch circle", "fewer, or smaller ones")
         if (self.radial_load is None) == (self.hertz_pressure is None):
-            given = "neither radial_load nor" if self.radial_load is None else "both radial_load and"
-            raise problem(f"{given} hertz_pressure given", 'one of them: radial_load = "4 kN"')
+            if self.radial_load is None:
+                raise problem("neither radial_load nor hertz_pressure given", 'one of them: radial_load = "4 kN"')
+            raise problem("both radial_load and hertz_pressure given", "one of them; delete the other")
         if self.cleanliness is not None and self.contamination_factor is not None:
             raise problem("both cleanliness and contamination_factor given", "one of them")
         if self.tilt and self.rolling == "ball":

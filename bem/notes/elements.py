@@ -26,6 +26,13 @@ SPEED_WITHOUT_UNIT = define(
     "",
     'Write the unit, such as "1500 rpm" if revolutions per minute are meant.',
 )
+SPEED_IN_TURNS = define(
+    "speed-in-turns",
+    INFO,
+    'speed = "{given}" is read as revolutions per minute.',
+    "",
+    'Write "{rpm:.6g} rpm".',
+)
 KAPPA_ABOVE_FILM = define(
     "kappa-above-film",
     INFO,

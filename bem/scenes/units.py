@@ -16,6 +16,7 @@ from pydantic_core import PydanticCustomError, core_schema
 from bem.scenes.usual_units import usual_unit
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*", re.DOTALL)
+_DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+\s*(?=[A-Za-zµμÅ°%]|1/|$)")
 # No names with long exponents and nothing but unit algebra reaches pint's parser.
 _UNIT_TEXT = re.compile(r"[A-Za-zµμÅ°Ω%][A-Za-z0-9µμÅ°Ω%*/^ ().-]{0,39}|1\s*/[A-Za-z0-9µμÅ°Ω%*/^ ().-]{1,39}")
 _BLANK_PRODUCT = re.compile(r"(?<=[\w)])\s+(?=[A-Za-zµμÅ(])")
@@ -24,6 +25,8 @@ _LONG_EXPONENT = re.compile(r"\d{2,}|\*\*\s*\S*\*\*|\^\s*\S*\^")
 _BARE_POWER = re.compile(r"(?<![A-Za-zµμ])([kcmuµμn]?m)([23])(?![0-9])")
 _NEWTON_METRE = re.compile(r"(?<![A-Za-zµμ])Nm(?![A-Za-z0-9])")
 _ANGLE_IN_UNIT = re.compile("rpm|rps|rad|deg|°|rev|turn|cycle", re.IGNORECASE)
+_TURNS = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*(?:1\s*/\s*min|/\s*min|min\s*(?:\^|\*\*)?\s*-1|min⁻¹)\s*")
+"""Speeds of rotation per minute whose unit says no angle."""
 _COMMON_UNITS = (
     *("m", "mm", "um", "nm", "angstrom", "m^2", "um^2", "mm^2", "m^3", "nm^3", "angstrom^3", "1/m"),
     *("N", "mN", "uN", "nN", "kN", "N/m", "Pa", "kPa", "MPa", "GPa", "1/Pa", "1/MPa", "1/GPa", "Pa*s", "mPa*s", "cP"),
@@ -93,6 +96,10 @@ class Dimension:
         return number
 
     def _parse_text(self, text: str) -> float:
+        if (comma := _DECIMAL_COMMA.match(text[:100])) is not None:
+            point = text.strip().replace(",", ".", 1)
+            missing = " and its unit" if self.unit and comma.end() == len(text) else ""
+            raise self._error(f'has a comma; write a decimal point, "{point}"{missing}')
         match = _NUMBER_AND_UNIT.fullmatch(text[:100])
         if match is None or len(text) > 100:
             raise self._error("is not a number followed by a unit")
@@ -133,13 +140,23 @@ class Number(Dimension):
 
 @dataclass(frozen=True)
 class Rotation(Dimension):
-    """A speed of rotation, whose unit must say the angle: "1500 1/min" are turns to most and radians to SI."""
+    """A speed of rotation, whose unit must say the angle; "1500 1/min" are turns, as drawings and catalogues write n.
+
+    A rate per second is refused: turns to some and radians to SI.
+    """
 
     def _parse_text(self, text: str) -> float:
+        if (turns := _TURNS.fullmatch(text[:100])) is not None:
+            text = f"{turns[1]} rpm"
         found = super()._parse_text(text)
         if _ANGLE_IN_UNIT.search(text) is None:
             raise self._error("says no angle, of which turns and radians differ by 6.28")
         return found
+
+
+def turns_without_angle(value: Any) -> bool:
+    """Return True for a speed of rotation as text per minute that says no angle, such as "900 1/min"."""
+    return isinstance(value, str) and _TURNS.fullmatch(value[:100]) is not None
 
 
 def convert(digits: str, unit: str, dimension: Dimension) -> float:

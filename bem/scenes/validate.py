@@ -12,6 +12,7 @@ from pydantic import BaseModel, ValidationError
 from bem.arguments import did_you_mean
 from bem.errors import InputError
 from bem.laws import Law, laws_of
+from bem.materials import CATALOGUE
 from bem.scenes.laws import LawOrNumber
 from bem.scenes.units import Dimension
 from bem.scenes.walk import fields_of_table, literals, members_of, unwrap, without_none
@@ -33,14 +34,6 @@ _INSTEAD = {
     "diameter": ("radius", "radius, half of the diameter"),
 }
 """Keys that users expect: a key of the same table that stands in their place, and what to write."""
-_OTHER_NAMES = {
-    "chromium": "Cr",
-    "chrome": "Cr",
-    "chromium-nitride": "CrN",
-    "titanium-nitride": "TiN",
-    "diamond-like-carbon": "dlc",
-}
-"""Materials of the catalogue by names that it does not have."""
 _PULLED = (
     "; an adhesive contact is pulled by negative loads in contact.load_path, or by contact.approach_path and approach"
 )
@@ -127,8 +120,9 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         return f"{key}.kind = {show(found)}: not allowed{nearest(str(found), names)}; allowed: {listed}"
     if kind == "unknown_name":
         found, names = context["found"], context["names"]
-        hint = f' - did you mean "{_OTHER_NAMES[found.lower()]}"?' if found.lower() in _OTHER_NAMES else ""
-        return f'{key} = "{found}": {mistake["msg"]}{hint or nearest(found, names)}; allowed: {", ".join(names)}'
+        meant = CATALOGUE.meant(found)
+        hint = f' - did you mean "{meant}"?' if meant in names else nearest(found, names)
+        return f'{key} = "{found}": {mistake["msg"]}{hint}; allowed: {", ".join(names)}'
     if kind in ("model_type", "model_attributes_type", "dict_type"):
         return f"{where}: not a table; allowed: a table with {', '.join(sorted(fields_of_table(annotation)))}"
     if kind == "quantity":

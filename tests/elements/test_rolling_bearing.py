@@ -13,6 +13,8 @@ from bem.elements.element import element_template, load_element
 from bem.elements.rolling_bearing import BearingModel, _centrifugal, load_integral, share
 from bem.elements.running import Running
 from bem.errors import Status
+from bem.notes import Level
+from bem.notes.general import VALUE_UNUSUAL
 from bem.reference_solutions.hertz import ellipse_contact
 
 STEEL = "steel-52100"
@@ -131,13 +133,52 @@ def test_rollers_touch_in_lines():
         ({"element": "journal-bearing"}, "plain-bush"),
         ({"element": "bering"}, "not allowed"),
         ({"speed": "3 m"}, "is not a speed of rotation"),
-        ({"speed": "1500 1/min"}, "says no angle"),  # was read as radians: 6.28 times too slow, without a word
-        ({"speed": "25 Hz"}, "says no angle"),
+        ({"speed": "25 Hz"}, "says no angle"),  # was read as radians: 6.28 times too slow, without a word
+        ({"speed": "25 1/s"}, "says no angle"),
+        ({"radial_load": "10,5 kN"}, 'has a comma; write a decimal point, "10.5 kN"; allowed'),
+        ({"radial_load": "10,5"}, 'write a decimal point, "10.5" and its unit'),
+        (
+            {"hertz_pressure": "1 GPa"},
+            "both radial_load and hertz_pressure given; allowed: one of them; delete the other",
+        ),
+        ({"first": "100Cr6"}, 'did you mean "steel-52100"'),
+        ({"first": "AISI 52100"}, 'did you mean "steel-52100"'),
+        ({"first": "16MnCr5"}, 'did you mean "case-hardened-steel"'),
+        ({"profile": "crowned"}, r"\(logarithmic: crowned or profiled rollers"),
     ],
 )
 def test_mistakes_are_said_with_what_is_allowed(change, words):
     with pytest.raises(InputError, match=words):
         load_element(BALLS | change)
+
+
+@pytest.mark.parametrize(
+    "speed", ["1500 1/min", "1500/min", "1500 min^-1", "1500 min-1", "1500 min⁻¹", "1.5e3 1 / min"]
+)
+def test_speeds_per_minute_are_turns(speed):
+    """As drawings and catalogues write n; a remark says so."""
+    element = load_element(BALLS | {"speed": speed})
+    assert element.model.speed == load_element(BALLS | {"speed": "1500 rpm"}).model.speed
+    assert element.speed_note().level is Level.INFO
+    assert 'read as revolutions per minute. Write "1500 rpm"' in str(element.speed_note())
+    assert load_element(BALLS | {"speed": "1500 rpm"}).speed_note() is None
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"clearance": 35}, 'write "35 um"'),
+        ({"clearance": 0.035}, "35 mm"),
+        ({"tilt": "1 deg"}, "some 1 mrad"),
+        ({"clearance": "1 mm"}, None),
+        ({"clearance": 0.0}, None),
+        ({"tilt": "2 mrad"}, None),
+    ],
+)
+def test_unusual_clearance_and_tilt_have_a_caution(change, words):
+    found = [str(note) for note in load_element(ROLLERS | change).notes() if note.code == VALUE_UNUSUAL.code]
+    assert len(found) == (words is not None)
+    assert words is None or words in found[0]
 
 
 def test_the_template_is_a_good_one(tmp_path):
