@@ -168,6 +168,7 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
     from bem.elements.plain_bush import PlainBushModel
     from bem.elements.running import run_all
     from bem.errors import InputError
+    from bem.notes import Level
     from bem.notes.merge import merge
     from bem.results.atomic import write_text
 
@@ -188,10 +189,9 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
     found = columns(cases, runs, changed)
     told: list[Sequence[Note]] = []
     for one, each in zip(cases, runs or [()] * len(cases), strict=True):
-        if isinstance(one.model, PlainBushModel):
-            told.append(all_notes(one, each))
-        else:
-            told.append([note] if (note := one.speed_note()) is not None else [])
+        every = all_notes(one, each)
+        bush = isinstance(one.model, PlainBushModel)
+        told.append([note for note in every if bush or note.level is not Level.INFO])
     show_warnings(merge(told, _rows_of))
     unnamed = [f"{read_element(file)['name']}-{number}" for number in range(1, len(cases) + 1)]
     named = found["case"] != unnamed
@@ -347,7 +347,10 @@ _CASE_HEADS = {
     "journal_bearing_film_estimate [m]": "film as journal bearing (estimate)",
     "viscosity_ratio": "kappa",
     "basic_life [h]": "L10",
+    "viscosity_ratio_of_film": "kappa of lambda",
     "modified_life [h]": "L10m",
+    "reference_life [h]": "L10r",
+    "modified_reference_life [h]": "L10mr",
     "static_safety": "C0 / P0",
     "scuffing_safety_contact_temperature": "scuffing safety (contact temperature)",
     "scuffing_safety_integral_temperature": "scuffing safety (integral temperature)",

@@ -247,7 +247,7 @@ def answer(element: Element, solved: Sequence[Running]) -> Rows:
     if isinstance(element.model, GearModel) and runs:
         rows.append(("scuffing", _scuffing(element, runs)))
     if isinstance(element.model, BearingModel):
-        rows += life_rows(element)
+        rows += life_rows(element, least_film_ratio(runs))
     if runs and (isinstance(element.model, GearModel | CamModel) or element.model.permissible_film_ratio is not None):
         rows.append(("micropitting", _micropitting(element, runs)))
     rows.append(("wear per hour", wear_per_hour(element)))
@@ -276,6 +276,11 @@ def _bush(element: Element, model: PlainBushModel, runs: Sequence[Running], solv
     return (("critical contact", pressure_words(model)), *film, *rows, *_lost(element, solved))
 
 
+def least_film_ratio(solved: Sequence[Running]) -> float | None:
+    """Return the smallest lambda ratio of the films that converged; None without roughness or films."""
+    return min((one.film_ratio for one in solved if one.converged and one.film_ratio is not None), default=None)
+
+
 def film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | None:
     """Return the film of a bush from its solved films that converged; None without one."""
     if not runs:
@@ -296,7 +301,7 @@ def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...
     """Return notes on limits that the answer exceeds; `solved` as in `answer`."""
     runs = [one for one in solved if one.converged]
     if isinstance(element.model, BearingModel):
-        return life_notes(element, min((one.film_ratio for one in runs if one.film_ratio is not None), default=None))
+        return life_notes(element, least_film_ratio(runs))
     if not isinstance(element.model, PlainBushModel):
         return ()
     return bush_notes(element.model, film_of_bush(element, runs))

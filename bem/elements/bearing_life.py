@@ -64,8 +64,11 @@ class BearingLife:
     slice_pressure: float | None = None
 
 
-def bearing_life(element: Element) -> BearingLife:
-    """Return the lives of a rolling bearing."""
+def bearing_life(element: Element, viscosity_ratio: float | None = None) -> BearingLife:
+    """Return the lives of a rolling bearing.
+
+    viscosity_ratio : kappa; that of the oil's viscosity over the required one if not given.
+    """
     model = element.model
     assert isinstance(model, BearingModel)
     geometry = model.geometry
@@ -81,7 +84,9 @@ def bearing_life(element: Element) -> BearingLife:
         dirt = contamination_factor(model.cleanliness or DEFAULT_CLEANLINESS, model.pitch)
     needed = reference_viscosity(model.pitch, model.speed)
     kinematic = kinematic_viscosity(element)
-    kappa = None if kinematic is None else kinematic / needed
+    kappa = viscosity_ratio
+    if kappa is None and kinematic is not None:
+        kappa = kinematic / needed
     found = rating_life(
         model.rolling,
         rating=rating,
@@ -131,11 +136,25 @@ def kinematic_viscosity(element: Element) -> float | None:
     return None if oil.density is None else oil.viscosity / oil.density
 
 
-def life_rows(element: Element) -> list[tuple[str, str]]:
-    """Return the lives of a rolling bearing in words."""
+def life_of_film(element: Element, film_ratio: float | None) -> BearingLife | None:
+    """Return the lives with the viscosity ratio that the solved film stands for, kappa = lambda^1.3.
+
+    None where that is not well below the ratio of the viscosities, and where one of both is not known.
+
+    film_ratio : smallest lambda ratio of the solved films; None without roughness or films.
+    """
+    kappa = bearing_life(element).rating.viscosity_ratio
+    if kappa is None or film_ratio is None:
+        return None
+    film = film_ratio**KAPPA_EXPONENT
+    return bearing_life(element, film) if film < _WELL_BELOW * min(kappa, MOST_KAPPA) else None
+
+
+def life_rows(element: Element, film_ratio: float | None = None) -> list[tuple[str, str]]:
+    """Return the lives of a rolling bearing in words; `film_ratio` as in `life_of_film`."""
     model = element.model
     assert isinstance(model, BearingModel)
-    life = bearing_life(element)
+    life, of_film = bearing_life(element), life_of_film(element, film_ratio)
     rating, speed = life.rating, model.speed
     source = "of the file" if model.dynamic_load_rating else "from the geometry by ISO 281; a catalogue's may be higher"
     rows = [
@@ -145,11 +164,24 @@ def life_rows(element: Element) -> list[tuple[str, str]]:
             f"P = {1e-3 * rating.load:.4g} kN{_factors(model, life)}, C/P = {rating.dynamic_rating / rating.load:.3g}",
         )
     ]
-    rows.append(("modified rating life", _modified(model, life)))
+    said = _modified(model, life)
+    if of_film is not None:
+        assert film_ratio is not None
+        said = (
+            f"{_life_of_film(of_film.rating.modified, model)}: use this one, as lambda = {film_ratio:.3g} of these "
+            f"rough surfaces stands for kappa = {of_film.rating.viscosity_ratio:.3g}. With the usual finish of "
+            f"bearings {said}"
+        )
+    rows.append(("modified rating life", said))
     said = f"L10r = {_life(life.reference.basic, speed)}"
     if life.modified_reference is not None:
         each = " with a_ISO of every slice" if life.slice_pressure is not None else ""
-        said += f", modified {_life(life.modified_reference, speed)}{each}"
+        modified = _life(life.modified_reference, speed)
+        if of_film is not None:
+            used = "not defined" if of_film.modified_reference is None else _life(of_film.modified_reference, speed)
+            modified = f"{used} with the kappa of lambda ({modified} with the usual finish)"
+            each = each.replace(" with", ", with")
+        said += f", modified {modified}{each}"
     said += "; ISO/TS 16281, from the load of every rolling element at this clearance"
     if life.slice_pressure is not None:
         tilt = f"tilt {1e3 * model.tilt:.3g} mrad" if model.tilt else "no tilt"
@@ -174,23 +206,13 @@ def life_notes(element: Element, film_ratio: float | None) -> tuple[Note, ...]:
     """
     model = element.model
     assert isinstance(model, BearingModel)
-    rating = bearing_life(element).rating
+    rating, of_film = bearing_life(element).rating, life_of_film(element, film_ratio)
     notes = []
     if rating.load > HIGHEST_LOAD * rating.dynamic_rating:
         notes.append(LOAD_ABOVE_LIFE_FORMULA(ratio=rating.load / rating.dynamic_rating))
-    kappa = None if rating.viscosity_ratio is None else min(rating.viscosity_ratio, MOST_KAPPA)
-    film = None if film_ratio is None else film_ratio**KAPPA_EXPONENT
-    if kappa is not None and film is not None and film < _WELL_BELOW * kappa:
-        factor = life_modification_factor(
-            model.rolling,
-            viscosity_ratio=film,
-            contamination=rating.contamination,
-            limit_over_load=rating.fatigue_limit / rating.load,
-        )
-        life = "not defined"
-        if factor is not None:
-            life = _life(RELIABILITY[model.reliability] * factor * rating.basic, model.speed)
-        notes.append(KAPPA_ABOVE_FILM(kappa=rating.viscosity_ratio, ratio=film_ratio, film=film, life=life))
+    if of_film is not None:
+        kappa, film = rating.viscosity_ratio, of_film.rating.viscosity_ratio
+        notes.append(KAPPA_ABOVE_FILM(kappa=kappa, ratio=film_ratio, film=film))
     return tuple(notes)
 
 
@@ -225,6 +247,14 @@ def _modified(model: BearingModel, life: BearingLife) -> str:
         f"kappa = {rating.viscosity_ratio:.3g} ({needed}), e_C = {rating.contamination:.3g}{dirt}, "
         f"C_u = {1e-3 * rating.fatigue_limit:.3g} kN"
     )
+
+
+def _life_of_film(revolutions: float | None, model: BearingModel) -> str:
+    """Return the modified life with the kappa of the film in words."""
+    name = f"L{100 - model.reliability}m"
+    if revolutions is None:
+        return f"{name} not defined (kappa below {LEAST_KAPPA})"
+    return f"{name} = {_life(revolutions, model.speed)}"
 
 
 def _life(revolutions: float, speed: float) -> str:

@@ -15,8 +15,8 @@ from typing import Any
 
 from pydantic_core import PydanticCustomError
 
-from bem.elements.answer import film_of_bush, likely_power, place_words, unsolved_ratio
-from bem.elements.bearing_life import bearing_life
+from bem.elements.answer import film_of_bush, least_film_ratio, likely_power, place_words, unsolved_ratio
+from bem.elements.bearing_life import bearing_life, life_of_film
 from bem.elements.bush_answer import bush_temperature, friction_power_of, journal_of, wear_life
 from bem.elements.element import Element, load_element, read_element
 from bem.elements.gear_pair import GearModel
@@ -131,7 +131,7 @@ def columns(
         known = [[one for one in each if one.converged] for each in runs]
         if all(known):
             found |= _known(_solved(cases, known))
-    return found | _known(_lives(cases))
+    return found | _known(_lives(cases, runs))
 
 
 def _rubbing(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dict[str, list[float | str]]:
@@ -222,16 +222,32 @@ def _solved(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dict
     return found
 
 
-def _lives(cases: Sequence[Element]) -> dict[str, list[float | str]]:
-    """Return rating lives and static safety of bearings; nothing of other elements."""
+def _lives(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dict[str, list[float | str]]:
+    """Return rating lives and static safety of bearings; nothing of other elements.
+
+    Modified lives are those to be used: with the viscosity ratio of the solved film where surfaces are rougher than
+    usual, which is then in a column of its own.
+    """
     models = [one.model for one in cases if isinstance(one.model, BearingModel)]
     if not models:
         return {}
     lives = [bearing_life(one) for one in cases]
-    modified = [_number(life.rating.modified) for life in lives]
+    of_film = [
+        life_of_film(one, least_film_ratio(each)) for one, each in zip(cases, runs or [()] * len(cases), strict=True)
+    ]
+    used = [life if film is None else film for life, film in zip(lives, of_film, strict=True)]
+
+    def in_hours(revolutions: Sequence[float | None]) -> list[float | str]:
+        return [hours(_number(life), one.speed) for life, one in zip(revolutions, models, strict=True)]
+
     return {
         "viscosity_ratio": [_number(life.rating.viscosity_ratio) for life in lives],
-        "basic_life [h]": [hours(life.rating.basic, one.speed) for life, one in zip(lives, models, strict=True)],
-        "modified_life [h]": [hours(life, one.speed) for life, one in zip(modified, models, strict=True)],
+        "viscosity_ratio_of_film": [
+            math.nan if one is None else _number(one.rating.viscosity_ratio) for one in of_film
+        ],
+        "basic_life [h]": in_hours([life.rating.basic for life in lives]),
+        "modified_life [h]": in_hours([life.rating.modified for life in used]),
+        "reference_life [h]": in_hours([life.reference.basic for life in lives]),
+        "modified_reference_life [h]": in_hours([life.modified_reference for life in used]),
         "static_safety": [life.static_rating / life.static_load for life in lives],
     }

@@ -317,7 +317,7 @@ class Element:
         ratios = self.columns().get("film_over_roughness", [])
         touching = sum(ratio < 1 for ratio in ratios)
         if touching and not isinstance(self.model, PlainBushModel):  # whose solved film tells it
-            notes.append(SURFACES_TOUCH(where=f" at {touching} of {len(ratios)} places"))
+            notes.append(SURFACES_TOUCH(touching=touching, places=len(ratios)))
         return tuple(notes)
 
     def _unused_oil_temperature(self) -> Note | None:

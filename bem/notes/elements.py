@@ -35,11 +35,11 @@ SPEED_IN_TURNS = define(
 )
 KAPPA_ABOVE_FILM = define(
     "kappa-above-film",
-    INFO,
-    "The viscosity ratio kappa is more favourable than the film.",
-    "kappa = {kappa:.3g}, but lambda = {ratio:.3g} stands for a kappa of {film:.3g} (ISO 281: kappa is about lambda to "
-    "the power 1.3). The required viscosity nu1 is that of the usual finish of bearings; these surfaces are rougher.",
-    "With kappa = {film:.3g} the modified life is {life}.",
+    CAUTION,
+    "These surfaces are rougher than the viscosity ratio kappa assumes: the modified life is shorter.",
+    "kappa = {kappa:.3g} is the viscosity over the one that bearings of usual finish need. These surfaces have lambda "
+    "= {ratio:.3g}, which stands for kappa = {film:.3g} (ISO 281: kappa is about lambda to the power 1.3).",
+    "Use the modified lives with the kappa of lambda, {film:.3g}.",
 )
 LOAD_ABOVE_LIFE_FORMULA = define(
     "load-above-life-formula",
@@ -53,7 +53,8 @@ SURFACES_TOUCH = define(
     "element-surfaces-touch",
     CAUTION,
     "Surfaces touch: the film is thinner than the roughness (lambda below 1).",
-    "That is so{where}. The answer estimates what asperities carry and rub; the films themselves are smooth.",
+    "That is so at {touching} of {places} places. The answer estimates what asperities carry and rub; the films "
+    "themselves are smooth.",
     "Mixed friction of one contact: `bem element FILE --scene mixed.toml --kind friction` writes its scene.",
 )
 CONTACT_LOST = define(

@@ -10,7 +10,7 @@ from command_line import run_command
 
 from bem import InputError
 from bem.elements.answer import PLACES, answer, balance_heat, friction_power, likely_power
-from bem.elements.bearing_life import bearing_life, life_notes
+from bem.elements.bearing_life import bearing_life, life_notes, life_of_film, life_rows
 from bem.elements.element import MODELS, element_template, load_element
 from bem.elements.gear_scuffing import (
     friction_of_gear_tests,
@@ -20,6 +20,7 @@ from bem.elements.gear_scuffing import (
 )
 from bem.elements.rating_life import dynamic_rating
 from bem.elements.running import operating_places, run_all, run_contact
+from bem.notes import Level
 from bem.notes.elements import OIL_FOLLOWS_BALANCE
 
 STEEL_BEARING = {
@@ -321,6 +322,15 @@ def test_a_favourable_kappa_beside_a_thin_film_is_said():
     assert note.code == "kappa-above-film"
     assert note.values["film"] == pytest.approx(1.1**1.3)
     assert note.values["kappa"] == bearing_life(rough).rating.viscosity_ratio > 3
+    assert note.level is Level.CAUTION
+    film = life_of_film(rough, 1.1)
+    assert film.rating.modified < bearing_life(rough).rating.modified
+    assert film.modified_reference < bearing_life(rough).modified_reference
+    said = dict(life_rows(rough, 1.1))
+    assert f"L10m = {film.rating.modified / 1e6:.3g} million" in said["modified rating life"]
+    assert "use this one, as lambda = 1.1 of these rough surfaces" in said["modified rating life"]
+    assert "with the kappa of lambda (" in said["reference rating life"]
+    assert "lambda" not in str(life_rows(rough, 3.0))
     assert life_notes(rough, 3.0) == ()
     assert life_notes(rough, None) == ()
     heavy = load_element(STEEL_BEARING | {"radial_load": "40 kN"})

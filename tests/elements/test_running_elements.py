@@ -220,7 +220,10 @@ def test_values_of_a_case_are_of_the_contact_that_its_row_names(tmp_path):
     assert found["speed"] == ["20000 rpm", "3000 rpm"]
     assert found["load [N]"] == [one.worst().load for one in cases]
     assert found["worst"] == found["thinnest"] == ["inner ring, 0 deg"] * 2
-    life = bearing_life(cases[1]).rating
+    lives = bearing_life(cases[1])
+    life = lives.rating
+    assert found["reference_life [h]"][1] == pytest.approx(lives.reference.basic / (60 * 3000))
+    assert found["modified_reference_life [h]"][1] == pytest.approx(lives.modified_reference / (60 * 3000))
     assert found["basic_life [h]"][1] == pytest.approx(life.basic / (60 * 3000))
     assert found["modified_life [h]"][1] == pytest.approx(life.modified / (60 * 3000))
     assert found["friction_power [W]"][0] > found["friction_power [W]"][1] > 0
@@ -233,6 +236,33 @@ def test_values_of_a_case_are_of_the_contact_that_its_row_names(tmp_path):
     assert row["worst"] == "B (3.69 mm before C)"
     assert row["micropitting_safety"] == pytest.approx(film.film_ratio / 0.5)
     assert row["scuffing_safety_contact_temperature"] == scuffing_of(gears, [film]).contact_safety
+
+
+def test_modified_lives_of_rough_cases_are_those_of_their_film(tmp_path):
+    file, rows = tmp_path / "b.toml", tmp_path / "c.csv"
+    file.write_text(element_template("rolling-bearing"))
+    rows.write_text("rms_roughness [nm]\n70\n400\n")
+    cases = load_cases(file, rows)
+    runs = [[run_contact(one, one.worst())] for one in cases]
+    found = case_columns(cases, runs)
+    kappa = runs[1][0].film_ratio ** 1.3
+    rough = bearing_life(cases[1], kappa)
+    assert np.isnan(found["viscosity_ratio_of_film"][0])
+    assert found["viscosity_ratio_of_film"][1] == pytest.approx(kappa)
+    assert found["modified_life [h]"][1] == pytest.approx(rough.rating.modified / (60 * 3000))
+    assert found["modified_reference_life [h]"][1] < found["modified_reference_life [h]"][0]
+    assert found["reference_life [h]"][1] == found["reference_life [h]"][0]
+
+
+def test_a_pressure_in_a_table_of_cases_stands_in_place_of_the_load(tmp_path):
+    file, rows = tmp_path / "b.toml", tmp_path / "c.csv"
+    file.write_text(element_template("rolling-bearing"))
+    rows.write_text("hertz_pressure [GPa]\n1.2\n1.5\n")
+    cases = load_cases(file, rows)
+    assert [one.worst().hertz(one.modulus).maximum_pressure for one in cases] == pytest.approx([1.2e9, 1.5e9])
+    rows.write_text("radial_load [kN], hertz_pressure [GPa]\n1, 1.2\n")
+    with pytest.raises(InputError, match="both radial_load and hertz_pressure"):
+        load_cases(file, rows)
 
 
 @pytest.mark.internal
