@@ -25,7 +25,15 @@ from bem.elements.model import Contacts, ElementModel, HeatBalanceScene
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.plain_bush import HOUSING, PlainBushModel, with_pressure_viscosity, with_temperature
 from bem.elements.rolling_bearing import BearingModel
-from bem.elements.rough_scenes import bush_rubbing_scene, bush_scene, conducts, life_scene, mixed_scene, rubbing_scene
+from bem.elements.rough_scenes import (
+    bush_rubbing_scene,
+    bush_scene,
+    conducts,
+    finish_words,
+    life_scene,
+    mixed_scene,
+    rubbing_scene,
+)
 from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
@@ -376,6 +384,8 @@ class Element:
             own = isinstance(self.model, PlainBushModel) and kind == "surface-temperature"
             if "boundary_friction" not in self.model.model_fields_set and not own:
                 assumed.append(f"boundary friction {self.model.boundary_friction:g} is assumed")
+            if self.model.rms_roughness is not None:
+                assumed.append(finish_words(self.model))
         base = {
             "kind": kind,
             "name": self.model.name,
@@ -394,11 +404,8 @@ class Element:
                 base["description"] += "; the bush, at rest, creeps so that the slice has a steady temperature"
                 return base | self._rubbing_bush(self.model, contact, bodies)
             return base | rubbing_scene(self.model, contact, bodies, self._patch_modulus)
-        film = self._film_scene(contact, bodies, kind)
-        if kind == LIFE:
-            film, more = life_scene(self.model, contact, bodies, self._oil_table(), self._patch_modulus)
-            film |= {"thermal": "off"} if self._layered else {}
-            base["description"] = "; ".join([base["description"], *more])
+        film, more = self._film_scene(contact, bodies, kind)
+        base["description"] = "; ".join([base["description"], *more])
         return base | film
 
     def shared_friction(self, contact: ElementContact) -> SharedFriction | None:
@@ -462,8 +469,10 @@ class Element:
             upper = {"material": self.table.get("housing", HOUSING), "layer": layer}
         return {"lower": {"material": self.table["first"]}, "upper": upper}
 
-    def _film_scene(self, contact: ElementContact, bodies: dict[str, Any], kind: str) -> dict[str, Any]:
-        """Return the keys of a scene of one contact with an oil film; raises as `scene`."""
+    def _film_scene(
+        self, contact: ElementContact, bodies: dict[str, Any], kind: str
+    ) -> tuple[dict[str, Any], list[str]]:
+        """Return the keys of a scene of one contact with an oil film and what it assumes; raises as `scene`."""
         if self.model.oil is None:
             raise InputError(f"{self.model.name}: a film needs an oil; allowed: a table [oil], or kind contact")
         ratio = contact.slide_roll_ratio
@@ -474,10 +483,13 @@ class Element:
                 f"a place of the table where they do not: {self._numbers_with_film()}"
             )
         if kind == "friction" and isinstance(self.model, PlainBushModel):
-            return bush_scene(self.model, contact, self._oil_table(), self.table["first"], self.table["second"])
-        if kind in MIXED:
-            made = mixed_scene(self.model, contact, bodies, self._oil_table(), kind, self._patch_modulus)
-            return made | ({"thermal": "off"} if self._layered else {})
+            return bush_scene(self.model, contact, self._oil_table(), self.table["first"], self.table["second"]), []
+        if kind in (*MIXED, LIFE):
+            if kind == LIFE:
+                made, more = life_scene(self.model, contact, bodies, self._oil_table(), self._patch_modulus)
+            else:
+                made, more = mixed_scene(self.model, contact, bodies, self._oil_table(), kind, self._patch_modulus)
+            return made | ({"thermal": "off"} if self._layered else {}), more
         shared = {
             **self._film_body_tables(),
             "oil": self._oil_table(),
@@ -489,14 +501,15 @@ class Element:
             if contact.length is not None:
                 others = ", ".join(one for one in KINDS if one != "point-film")
                 raise InputError(f"{contact.name}: a line contact has no film of kind point-film; allowed: {others}")
-            return {**shared, "ball": {"radius": contact.radius, "radius_y": contact.across, "load": contact.load}}
+            ball = {"radius": contact.radius, "radius_y": contact.across, "load": contact.load}
+            return {**shared, "ball": ball}, []
         line_load = contact.line_load(self.modulus)
         width = contact.load / line_load
         return {
             "thermal": self.model.thermal if conducts(self.model) else "off",
             **shared,
             "roller": {"radius": contact.radius, "width": width, "load": contact.load},
-        }
+        }, []
 
     def _check_heat(self) -> None:
         cold = dict.fromkeys(one.name for one in self.bodies if not one.thermal_diffusivity)

@@ -1,7 +1,9 @@
 """Scenes with rough surfaces of one contact of a machine element: mixed friction, running-in, surface temperature.
 
 The roughness of an element is one number, the rms height of both surfaces together. Its scenes need surfaces: both
-bodies get random ones of equal rms height, whose shortest waves the grid resolves. Measured surfaces may replace them.
+bodies get random ones of equal rms height, with the correlation lengths of a usual finish (`FINISHES`). These do not
+depend on the size of the contact; the grid resolves them. They are assumed, and with the rms height they decide how
+much the asperities carry. Measured surfaces may replace them.
 """
 
 from __future__ import annotations
@@ -15,7 +17,8 @@ from bem.elements.contact import ElementContact
 from bem.errors import InputError
 from bem.materials import Body, softer_hardness
 from bem.physical_constants import ROOM_TEMPERATURE
-from bem.surfaces.processes import PROCESSES
+from bem.quantities import si
+from bem.surfaces.processes import PROCESSES, ProcessName
 
 if TYPE_CHECKING:
     from bem.elements.model import ElementModel
@@ -28,10 +31,19 @@ _POINT_HALF_AXES = 3.0
 """Sides of the patch of a point contact, in half-axes of the Hertz contact."""
 _LINE_CELLS = (192, 64)
 _POINT_CELLS, _MOST_ELONGATED = 96, 4.0
-"""Cells across a point contact along its shorter half-axis, and the largest ratio of cells along both axes."""
-_CELLS_PER_SHORTEST_WAVE = 6.0
-_HURST = 0.8
-"""Hurst exponent of machined surfaces; 0.7 to 0.9 are usual."""
+"""Fewest cells along the shorter side of a point contact, and of the longer one over them."""
+"""Fewest cells along and across the motion of a line contact; half of the former lie in it."""
+_SLICE_LENGTHS, _FEWEST_LENGTHS = 16.0, 8.0
+"""Correlation lengths along a slice of a line contact, and the fewest along any side: a shorter side is no sample of
+the roughness."""
+FINISHES: dict[str, ProcessName] = {
+    "rolling-bearing": "superfinished",
+    "gear-pair": "ground",
+    "cam-follower": "ground",
+    "piston-ring": "honed",
+}
+"""Usual finish of the surfaces of an element: a process of the catalogue (`bem surfaces`), the lay across the motion.
+Plain bushes have a ground shaft of their own (`ground_shaft`)."""
 
 _CELLS_PER_CORRELATION_LENGTH, _LENGTHS_ACROSS, _RUBBED_CELLS, _MOST_CELLS = 3.25, 32, 128, 4096
 """Cells of a bush's slice to the correlation length of its shaft along the sliding; correlation lengths and cells
@@ -40,8 +52,8 @@ _CREEP = 1e-3
 """Speed of a bush at rest over the shaft's in scenes of surface temperature."""
 _CYCLES = {"count": 50, "averaged": 10, "settled": 20}
 ASSUMED_SLIDING, ASSUMED_WEAR_RATE, ASSUMED_CYCLES = 0.02, 2e-17, 1_000_000
-"""Slide-to-roll ratio of lives in place of pure rolling (rolling bearings slip by 1 to 3 %), wear rate of lives without
-one of the element [m^2/N], as in the template of running-in-life, and their cycles."""
+"""Slide-to-roll ratio of running-in and lives in place of pure rolling (rolling bearings slip by 1 to 3 %). Wear rate
+of lives without one of the element [m^2/N], as in the template of running-in-life, and their cycles."""
 _LEAST_SLIDING = 1e-4
 _DEPTHS = 50
 _CELLS_PER_DEPTH = 5.0
@@ -72,43 +84,86 @@ class Patch:
         """Longer side of a cell [m]."""
         return max(length / cells for length, cells in zip(self.lengths, self.shape, strict=True))
 
-    def surface(self, rms_height: float) -> dict[str, Any]:
-        """Return the table [surface] of a body: self-affine roughness of an rms height [m] that the grid resolves."""
-        cutoff = _CELLS_PER_SHORTEST_WAVE * self.coarser_spacing
-        return {
-            "kind": "generated",
-            "rms_height": rms_height,
-            "hurst": _HURST,
-            "rolloff_wavelength": max(0.5 * min(self.lengths), cutoff),
-            "cutoff_wavelength": cutoff,
-        }
+
+def finish_lengths(model: ElementModel) -> tuple[float, float] | None:
+    """Return the correlation lengths along x and y [m] of the surfaces of scenes; None without roughness."""
+    if model.rms_roughness is None:
+        return None
+    if model.element not in FINISHES:
+        return _bush_lengths(model)  # type: ignore[arg-type]
+    return PROCESSES[FINISHES[model.element]].lengths("y")
 
 
-def patch_over(contact: ElementContact, modulus: float) -> Patch:
-    """Return the patch that holds the Hertz contact: a slice of a line contact, the whole of a point contact.
-
-    modulus : contact modulus [Pa].
-    """
-    if contact.length is not None:
-        nx, ny = _LINE_CELLS
-        side = _LINE_HALF_WIDTHS * contact.half_width(modulus)
-        return Patch(_LINE_CELLS, (side, side * ny / nx), (False, True))
-    semi_axes = contact.hertz(modulus).semi_axes  # type: ignore[union-attr]
-    shortest = min(semi_axes)
-    cells = [16 * round(_POINT_CELLS / 16 * min(math.sqrt(a / shortest), _MOST_ELONGATED)) for a in semi_axes]
-    return Patch(
-        (cells[0], cells[1]), (_POINT_HALF_AXES * semi_axes[0], _POINT_HALF_AXES * semi_axes[1]), (False, False)
+def finish_words(model: ElementModel) -> str:
+    """Return a sentence's part on the assumed finish: process and correlation length across its grooves."""
+    name = FINISHES.get(model.element, "ground")
+    lengths = finish_lengths(model)
+    assert lengths is not None
+    return (
+        f"the roughness is that of {name} surfaces (correlation length {si(min(lengths), 'm')}), which is assumed and "
+        "decides how much the asperities carry: measured surfaces are better"
     )
 
 
-def rough_bodies(
-    model: ElementModel, bodies: Mapping[str, Mapping[str, Any]], patch: Patch
-) -> dict[str, dict[str, Any]]:
-    """Return both bodies' tables with random surfaces of the element's rms height together; smooth without one."""
+def _finish(model: ElementModel, rms_height: float) -> dict[str, Any]:
+    """Return the table [surface] of a body: random Gaussian heights of an rms value [m], lengths of the finish."""
+    name = FINISHES[model.element]
+    process = PROCESSES[name]
+    found: dict[str, Any] = {"process": name, "rms_height": rms_height}
+    if process.directional:
+        found["lay"] = "y"
+    if (process.skewness, process.kurtosis) != (0.0, 3.0):
+        found |= {"skewness": 0.0, "kurtosis": 3.0}
+    return found
+
+
+def patch_over(contact: ElementContact, modulus: float, roughness_lengths: tuple[float, float] | None = None) -> Patch:
+    """Return the patch that holds the Hertz contact: a slice of a line contact, the whole of a point contact.
+
+    Parameters
+    ----------
+    contact : of the element.
+    modulus : contact modulus [Pa].
+    roughness_lengths : correlation lengths along x and y [m], which the cells resolve; None of smooth bodies.
+    """
+    lengths_x, lengths_y = roughness_lengths or (0.0, 0.0)
+    if contact.length is not None:
+        side = max(_LINE_HALF_WIDTHS * contact.half_width(modulus), _FEWEST_LENGTHS * lengths_x)
+        nx, ny = _LINE_CELLS
+        across = side * ny / nx
+        if lengths_y:
+            across = max(min(_SLICE_LENGTHS * lengths_y, contact.length), _FEWEST_LENGTHS * lengths_y)
+        return Patch((_cells(side, lengths_x, nx), _cells(across, lengths_y, ny)), (side, across), (False, True))
+    semi_axes = contact.hertz(modulus).semi_axes  # type: ignore[union-attr]
+    shortest = min(semi_axes)
+    least = [16 * round(_POINT_CELLS / 16 * min(math.sqrt(a / shortest), _MOST_ELONGATED)) for a in semi_axes]
+    sides, cells = [], []
+    for axis, fewest, length in zip(semi_axes, least, (lengths_x, lengths_y), strict=True):
+        own = _POINT_HALF_AXES * axis
+        sides.append(max(own, _FEWEST_LENGTHS * length))
+        cells.append(_cells(sides[-1], length, math.ceil(fewest * sides[-1] / own)))
+    return Patch((cells[0], cells[1]), (sides[0], sides[1]), (False, False))
+
+
+def _cells(side: float, roughness_length: float, fewest: int) -> int:
+    """Return a multiple of 16 cells along a side [m] that resolve a correlation length [m]; 0 of smooth bodies."""
+    wanted = 0.0 if roughness_length == 0 else _CELLS_PER_CORRELATION_LENGTH * side / roughness_length
+    return min(16 * math.ceil(max(wanted, fewest) / 16 * (1 - 1e-9)), _MOST_CELLS)
+
+
+def rough_bodies(model: ElementModel, bodies: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, Any]]:
+    """Return both bodies' tables with random surfaces of the element's rms height together; smooth without one.
+
+    All the roughness of a bush is that of its ground shaft.
+    """
+    found = {name: dict(body) for name, body in bodies.items()}
     if model.rms_roughness is None:
-        return {name: dict(body) for name, body in bodies.items()}
-    surface = patch.surface(model.rms_roughness / math.sqrt(2))
-    return {name: {**body, "surface": dict(surface)} for name, body in bodies.items()}
+        return found
+    if model.element not in FINISHES:
+        found["lower"]["surface"] = ground_shaft(model)  # type: ignore[arg-type]
+        return found
+    surface = _finish(model, model.rms_roughness / math.sqrt(2))
+    return {name: {**body, "surface": dict(surface)} for name, body in found.items()}
 
 
 def mixed_scene(
@@ -118,8 +173,11 @@ def mixed_scene(
     oil: Mapping[str, Any],
     kind: str,
     modulus: float,
-) -> dict[str, Any]:
-    """Return the keys of a scene of kind friction or running-in: load, speed and supply of one place of the element.
+) -> tuple[dict[str, Any], list[str]]:
+    """Keys of a scene of kind friction or running-in, and what is assumed in it, in words.
+
+    Load, speed and supply are those of one place of the element. In pure rolling nothing wears, so that a
+    slide-to-roll ratio is assumed for running-in.
 
     Parameters
     ----------
@@ -127,7 +185,7 @@ def mixed_scene(
     contact : its place.
     bodies : tables of `lower` and `upper` with their materials.
     oil : the element's table of the oil.
-    kind : "friction" or "running-in".
+    kind : "friction", "running-in" or "running-in-life".
     modulus : contact modulus [Pa].
 
     Raises
@@ -139,14 +197,17 @@ def mixed_scene(
             f"{model.name}: kind {kind} needs the roughness of the surfaces; allowed: rms_roughness of both together, "
             'such as "300 nm"'
         )
-    patch, ratio = patch_over(contact, modulus), contact.slide_roll_ratio
+    patch, ratio, assumed = patch_over(contact, modulus, finish_lengths(model)), contact.slide_roll_ratio, []
+    if kind != "friction" and abs(ratio) < _LEAST_SLIDING:
+        ratio = ASSUMED_SLIDING
+        assumed.append(f"slide-to-roll ratio {ratio:g} is assumed in place of pure rolling, in which nothing wears")
     shape: dict[str, Any] = {"radii": [contact.radius, contact.across]}
     if contact.length is not None:
         shape = {"radius": contact.radius, "width": contact.length}
     flat_speed = abs(contact.mean_speed) * (1 + 0.5 * ratio)
     made: dict[str, Any] = {
         "thermal": _thermal(model, contact),
-        **rough_bodies(model, bodies, patch),
+        **rough_bodies(model, bodies),
         "contact": {**shape, "loads": [contact.load], "boundary_friction": model.boundary_friction},
         "oil": dict(oil),
         "speeds": {"values": [flat_speed], "slide_roll_ratio": ratio},
@@ -157,13 +218,12 @@ def mixed_scene(
     if kind == "friction":
         if hardness_of(model) is None:
             sharing["models"] = ["elastic"]
-        return made | {"sharing": sharing}
-    return {
-        **made,
-        "sharing": sharing,
+        return made | {"sharing": sharing}, assumed
+    cycles = {
         "depths": {"count": _DEPTHS, "spacing": patch.coarser_spacing / _CELLS_PER_DEPTH},
         "cycles": dict(_CYCLES),
     }
+    return made | {"sharing": sharing} | (cycles if kind == "running-in" else {}), assumed
 
 
 def life_scene(
@@ -175,8 +235,7 @@ def life_scene(
 ) -> tuple[dict[str, Any], list[str]]:
     """Return the keys of a scene of kind running-in-life, see `mixed_scene`, and what is assumed in it, in words.
 
-    Wear is Archard's with the element's rate; a place slides by slide-to-roll ratio times patch in a pass. In pure
-    rolling nothing wears, so that a slide-to-roll ratio is assumed.
+    Wear is Archard's with the element's rate; a place slides by slide-to-roll ratio times patch in a pass.
 
     Raises
     ------
@@ -186,12 +245,8 @@ def life_scene(
         raise InputError(
             f"{contact.name}: kind running-in-life has line contacts alone; allowed: kind running-in under a ball"
         )
-    made, assumed = mixed_scene(model, contact, bodies, oil, "friction", modulus), []
-    ratio, rate = contact.slide_roll_ratio, model.specific_wear_rate
-    if abs(ratio) < _LEAST_SLIDING:
-        ratio = ASSUMED_SLIDING
-        made["speeds"] = {"values": [abs(contact.mean_speed) * (1 + 0.5 * ratio)], "slide_roll_ratio": ratio}
-        assumed.append(f"slide-to-roll ratio {ratio:g} is assumed in place of pure rolling")
+    made, assumed = mixed_scene(model, contact, bodies, oil, "running-in-life", modulus)
+    ratio, rate = made["speeds"]["slide_roll_ratio"], model.specific_wear_rate
     if not rate:
         rate = ASSUMED_WEAR_RATE
         assumed.append("the wear rate is assumed")
@@ -261,6 +316,12 @@ def ground_shaft(model: PlainBushModel) -> dict[str, Any]:
     return found
 
 
+def _bush_lengths(model: PlainBushModel) -> tuple[float, float]:
+    """Return the correlation lengths of the shaft along and across the sliding [m]."""
+    across, along = _ground_lengths(model)
+    return (along, across) if model.lay == "around" else (across, along)
+
+
 def _ground_lengths(model: PlainBushModel) -> tuple[float, float]:
     """Return the correlation lengths across and along the grooves [m]."""
     ground = PROCESSES["ground"]
@@ -299,8 +360,7 @@ def bush_rubbing_scene(
     shape, width = (128, 32), side / 4
     if model.rms_roughness is not None:
         made["lower"]["surface"] = ground_shaft(model)
-        across, along = _ground_lengths(model)
-        along_x, along_y = (along, across) if model.lay == "around" else (across, along)
+        along_x, along_y = _bush_lengths(model)
         cells = 16 * math.ceil(side / along_x * _CELLS_PER_CORRELATION_LENGTH / 16)
         shape, width = (min(max(cells, 128), _MOST_CELLS), _RUBBED_CELLS), _LENGTHS_ACROSS * along_y
     patch = Patch(shape, (side, width), (False, True))
@@ -331,12 +391,14 @@ def rubbing_scene(
     A line contact is a slice that repeats along its length. Under a body at rest the heat of an endless line has no
     steady temperature, so that there the patch stands alone, as long as it is wide.
     """
-    patch = patch_over(contact, modulus)
+    lengths = finish_lengths(model)
+    patch = patch_over(contact, modulus, lengths)
     load = contact.load
     if contact.length is not None:
         if 0 in contact.speeds:
-            side, cells = patch.lengths[0], 128
-            patch = Patch((cells, cells), (side, side), (False, False))
+            side = patch.lengths[0]
+            nx, ny = (_cells(side, length, 128) for length in lengths or (0.0, 0.0))
+            patch = Patch((nx, ny), (side, side), (False, False))
         load *= patch.lengths[1] / contact.length
     curved: dict[str, Any] = {"kind": "ellipsoid", "radius": contact.radius, "radius_y": contact.across}
     if contact.length is not None:
@@ -345,7 +407,7 @@ def rubbing_scene(
     bulk = model.bulk_temperature or (ROOM_TEMPERATURE if oil is None or oil.temperature is None else oil.temperature)
     return {
         "grid": patch.table(),
-        **rough_bodies(model, bodies, patch),
+        **rough_bodies(model, bodies),
         "shape": curved,
         "contact": {
             "load": load,

@@ -30,19 +30,29 @@ _PURE_ROLLING = "    # pure rolling: asperities carry load but do not rub; for a
 """Comment on a slide-to-roll ratio of zero in a scene of kind friction."""
 
 
-_RANDOM = "    # random, of the element's rms_roughness; put your measured map here"
+_RANDOM = (
+    "    # random, of the element's rms_roughness; its lengths are assumed (`bem surfaces`): put your measured map here"
+)
 """Comment on a surface."""
+
+
+_OF_LOWER = "    # of the lower surface; the entrainment speed is {mean}"
+"""Comment on the speed of a scene with sliding."""
 
 
 def scene_text(table: Mapping[str, Any]) -> str:
     """Return the table of an element's scene as TOML text for a reader: tables under headings, values with units."""
     tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
     rolls = table.get("kind") == "friction" and table["speeds"]["slide_roll_ratio"] == 0
+    speeds = table.get("speeds", {})
     lines = [f"{key} = {_value(key, value)}" for key, value in table.items() if key not in tables]
     for key, inner in tables.items():
         lines += ["", f"[{key}]", *(_line(name, value) for name, value in inner.items())]
         if rolls and key == "speeds":
             lines[-1] += _PURE_ROLLING
+        if key == "speeds" and speeds.get("slide_roll_ratio") and len(speeds.get("values", [])) == 1:
+            mean = speeds["values"][0] / (1 + 0.5 * speeds["slide_roll_ratio"])
+            lines[-len(inner)] += _OF_LOWER.format(mean=si(mean, "m/s", 4))
     return "\n".join(lines) + "\n"
 
 
