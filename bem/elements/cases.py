@@ -3,6 +3,9 @@
 name, radial_load [kN], speed [rpm], oil.temperature [degC]
 idle, 1, 800, 40
 full, 6, 3000, 80
+
+Keys of tables are dotted, such as oil.base. An empty cell takes a key of the file out; a grade with a base of its own
+(PAO 10) does so with the base of the file's oil.
 """
 
 from __future__ import annotations
@@ -11,8 +14,9 @@ import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, get_args
 
+from pydantic import BaseModel
 from pydantic_core import PydanticCustomError
 
 from bem.elements.answer import film_of_bush, least_film_ratio, likely_power, place_words, unsolved_ratio
@@ -27,7 +31,8 @@ from bem.elements.rolling_bearing import BearingModel
 from bem.elements.running import Running
 from bem.errors import InputError
 from bem.kinds.traction.along import columns_of
-from bem.scenes.paths import parse_key, put
+from bem.lubrication.oils.catalogue import find_oil
+from bem.scenes.paths import Key, parse_key, put, value_at
 from bem.scenes.values import plain_value
 
 _LOADS = ("radial_load", "torque")
@@ -52,7 +57,12 @@ def load_cases(source: str | Path, rows: str | Path) -> tuple[Element, ...]:
         for name, value in zip(columns, values, strict=True):
             key = parse_key(name)
             assert key is not None
-            put(case, key, value if name == "name" else plain_value(value))
+            if value:
+                put(case, key, value if name == "name" else plain_value(value))
+            else:
+                _take_out(case, key)
+        if "oil.grade" in columns:
+            _drop_base(case, columns)
         try:
             found.append(load_element(case))
         except InputError as error:
@@ -69,6 +79,36 @@ def _replaced(key: str, columns: Mapping[str, object]) -> bool:
     )
 
 
+def _take_out(case: dict[str, Any], key: Key) -> None:
+    """Remove a key, in place, whose cell is empty; tables on the way are copied first, as by `put`."""
+    if value_at(case, key) is None:
+        return
+    put(case, key, None)
+    value_at(case, key[:-1]).pop(key[-1])
+
+
+def _drop_base(case: dict[str, Any], columns: Mapping[str, Any]) -> None:
+    """Remove base and viscosity index of the file's oil, in place, where the row's grade has its own."""
+    try:
+        find_oil(str(case["oil"]["grade"]), base="mineral")
+    except InputError as error:
+        if "has its own" in str(error):
+            for name in ("base", "viscosity_index"):
+                if f"oil.{name}" not in columns:
+                    _take_out(case, ("oil", name))
+
+
+def _keys_of(model: type[BaseModel], prefix: str = "") -> list[str]:
+    """Return the keys of a table and of the tables in it, dotted."""
+    found = []
+    for name, field in model.model_fields.items():
+        found.append(f"{prefix}{name}")
+        for one in (field.annotation, *get_args(field.annotation)):
+            if isinstance(one, type) and issubclass(one, BaseModel):
+                found += _keys_of(one, f"{prefix}{name}.")
+    return found
+
+
 def changed_keys(source: str | Path, rows: str | Path) -> dict[str, list[str]]:
     """Return the columns of a text file of cases as they stand there, each number with its unit; without their names.
 
@@ -80,8 +120,7 @@ def changed_keys(source: str | Path, rows: str | Path) -> dict[str, list[str]]:
 
 
 def _columns_of(table: Mapping[str, Any], rows: str | Path) -> dict[str, list[str]]:
-    known = [name for name in type(load_element(table).model).model_fields if name not in ("element", "oil")]
-    known += ["oil.temperature", "oil.grade"] if isinstance(table.get("oil"), Mapping) else []
+    known = [name for name in _keys_of(type(load_element(table).model)) if name not in ("element", "oil")]
     try:
         return columns_of(str(rows), known, (), 1)
     except PydanticCustomError as error:

@@ -611,7 +611,7 @@ def test_particles_of_a_bush_are_its_worn_volume():
     element = load_element(WORN | {"mean_particle_volume": "1 um^3"})
     volume = 1e-15 * 500 * element.model.sliding_speed * 3600
     said = dict(answer(element, ()))["worn volume per hour"]
-    assert said.startswith(f"{1e9 * volume:.3g} mm^3 of the bush, {volume / 1e-18:.3g} of")
+    assert said.startswith(f"{1e9 * volume:.3g} mm^3 of the bush, {volume / 1e-18:.3g} particles of")
 
 
 def test_wear_and_life_in_words():

@@ -1,0 +1,53 @@
+"""Tables of cases compare oils: every key of the oil is a column, and a grade with its own base needs none."""
+
+import pytest
+
+from bem import InputError
+from bem.elements.cases import load_cases
+from bem.elements.element import MODELS, element_template
+
+CAM_OIL = """
+[oil]
+grade = "ISO VG 68"
+base = "pao"
+viscosity_index = 150
+temperature = "60 degC"
+"""
+
+
+@pytest.fixture(params=MODELS)
+def file(request, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(element_template(request.param).partition("\n[oil]")[0].partition("[gas]")[0] + CAM_OIL)
+    return path
+
+
+def test_oils_are_compared_in_every_element(file, tmp_path):
+    rows = tmp_path / "oils.csv"
+    rows.write_text(
+        "oil.grade, oil.base, oil.temperature [degC]\nISO VG 68, ester, 60\nPAO 10, , 70\nISO VG 46, pao, 80\n"
+    )
+    oils = [one.model.oil.oil for one in load_cases(file, rows)]
+    assert [one.base for one in oils] == ["ester", "pao", "pao"]
+    assert [one.name for one in oils] == ["ester 68", "PAO 10", "pao 46"]
+
+
+def test_a_grade_with_its_own_base_takes_the_place_of_the_files(file, tmp_path):
+    rows = tmp_path / "oils.csv"
+    rows.write_text("oil.grade\nPAO 40\nISO VG 32\n")
+    first, second = (one.model.oil for one in load_cases(file, rows))
+    assert (first.base, first.viscosity_index, first.oil.name) == (None, None, "PAO 40")
+    assert (second.base, second.viscosity_index) == ("pao", 150)
+    rows.write_text("oil.grade, oil.base\nPAO 40, ester\n")
+    with pytest.raises(InputError, match="has its own viscosity index and base"):
+        load_cases(file, rows)
+
+
+def test_keys_of_tables_are_columns(tmp_path):
+    file, rows = tmp_path / "gears.toml", tmp_path / "rows.csv"
+    file.write_text(element_template("gear-pair"))
+    rows.write_text("heat_balance.conductance [W/K]\n20\n40\n")
+    assert [one.model.heat_balance.conductance for one in load_cases(file, rows)] == [20, 40]
+    rows.write_text("oil.bas\npao\n")
+    with pytest.raises(InputError, match=r'did you mean "oil\.base"'):
+        load_cases(file, rows)
