@@ -1,5 +1,6 @@
 """The form of a machine element: as filled from the template it is that element, and its answer is the command's."""
 
+import re
 import tomllib
 
 import pytest
@@ -40,6 +41,16 @@ def test_the_form_offers_every_key_of_the_element(name):
     for key in model.UNUSED_KEYS:
         with pytest.raises(InputError, match=f"{key} of a {name}"):
             load_element(table_of(name, typed(name, **{key: "0.5"})))
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_the_template_names_every_key_of_the_element(name):
+    """Given or behind a #; the name is that of the file."""
+    model, text = MODELS[name], element_template(name)
+    missing = {key for key in model.model_fields if re.search(rf"^(# )?\[?{key}\b", text, re.MULTILINE) is None}
+    assert missing == {"name", *model.UNUSED_KEYS}
+    for key in model.OTHER_KEYS:
+        assert f"{key} = " in text
 
 
 def test_a_bush_by_its_bore():
