@@ -122,10 +122,28 @@ class BearingModel(ElementModel):
             return self.radial_load
         assert self.hertz_pressure is not None
         highest = self._load_under(self.hertz_pressure)
+        if self.tilt:
+            return self._load_of_tilted(highest)
         stiffness, power = self._stiffness()
         shift = (highest / stiffness) ** (1 / power) + 0.5 * self.clearance
         pressed = [max(shift * math.cos(a) - 0.5 * self.clearance, 0.0) for a in self._angles]
         return stiffness * sum(one**power * math.cos(a) for one, a in zip(pressed, self._angles, strict=True))
+
+    def _load_of_tilted(self, highest: float) -> float:
+        """Return the radial load [N] under which the most loaded slice of all has a load per length [N/m] that gives
+        `highest` [N] on the whole length of a roller."""
+        from scipy.optimize import brentq
+
+        def excess(load: float) -> float:
+            slices = self._sliced(load).loads
+            return slices.shape[1] * float(slices.max()) / highest - 1
+
+        low = high = highest
+        while excess(low) > 0:
+            low *= 0.5
+        while excess(high) < 0:
+            high *= 2
+        return float(brentq(excess, low, high, xtol=1e-12 * highest, rtol=1e-12))
 
     def _load_under(self, pressure: float) -> float:
         """Return the load of a rolling element [N] that presses on the inner ring with a Hertz pressure [Pa]."""
@@ -175,8 +193,12 @@ class BearingModel(ElementModel):
 
     def sliced_rollers(self) -> SlicedRollers:
         """Loads of the slices of all rollers."""
+        return self._sliced(self.load)
+
+    def _sliced(self, load: float) -> SlicedRollers:
+        """Loads of the slices of all rollers under a radial load [N]."""
         profiled = self.profile == "logarithmic"
-        return slice_rollers(self.geometry, self.load, clearance=self.clearance, tilt=self.tilt, profiled=profiled)
+        return slice_rollers(self.geometry, load, clearance=self.clearance, tilt=self.tilt, profiled=profiled)
 
     def contacts(self) -> Contacts:
         """Return all loaded contacts, on inner and outer ring, by their angle from the load."""

@@ -212,3 +212,13 @@ def test_tilted_rollers_have_the_pressure_of_their_most_loaded_slice():
     assert (
         element.worst().hertz(even.modulus).maximum_pressure > 1.1 * even.worst().hertz(even.modulus).maximum_pressure
     )
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize("profile", ["straight", "logarithmic"])
+def test_the_hertz_pressure_of_tilted_rollers_is_the_highest_on_the_inner_ring(profile):
+    given = {**ROLLERS, "radial_load": None, "hertz_pressure": "1.2 GPa", "clearance": "20 um", "profile": profile}
+    even, tilted = load_element(given), load_element(given | {"tilt": "1 mrad"})
+    for element in (even, tilted):
+        assert element.worst().hertz(element.modulus).maximum_pressure == pytest.approx(1.2e9, rel=1e-6)
+    assert tilted.model.load < even.model.load
