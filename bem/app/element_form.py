@@ -43,6 +43,7 @@ _MORE = {
     "bore": "such as 20.04 mm; of the bush, in place of shaft_diameter or clearance: empty the other one",
     "thermal": 'such as full: heat across the films, or off; without it "lumped", one mean temperature',
     "mean_particle_volume": "such as 0.01 um^3; with specific_wear_rate, for the number of particles per hour",
+    "centre_distance": "such as 91.5 mm; in place of profile_shifts, of whose sum each gear gets half",
     "permissible_film_ratio": "such as 0.5; for a safety against micropitting, of a test with this oil and finish",
     "name": "such as pump-2; of the file and of its scenes",
     "oil.base": "such as pao, ester, pag; mineral without it",

@@ -91,6 +91,8 @@ def element(
 
     if scene is None and kind != "traction":
         raise InputError(f"--kind {kind}: the kind of a scene; allowed: --scene FILE beside it, which is written")
+    if at and scene is None and not contacts:
+        raise InputError(f"--at {at}: which contact a scene is of; allowed: --scene FILE or --contacts beside it")
     if table is not None:
         new_file(table, "--table", (".csv",))
     if path is not None:
@@ -368,6 +370,7 @@ _HEADS = {
     "solved_film_over_roughness": "lambda ratio",
     "friction": "friction coefficient",
     "friction_power [W]": "friction power",
+    "rolling_loss [W]": "of it rolling loss",
     "oil_temperature [K]": "oil",
     "friction_power_with_asperities [W]": "friction power with asperities",
     "bush_temperature [K]": "bush",

@@ -558,7 +558,10 @@ def _scuffing(element: Element, runs: Sequence[Running]) -> str:
         return f"{said}. For a safety factor give scuffing_load_stage, the FZG load stage (A/8.3/90) that the oil fails"
     safety = f"{found.contact_safety:.3g} by contact temperature"
     if found.integral_safety is not None:
-        safety += f", {found.integral_safety:.3g} by integral temperature"
+        safety += (
+            f", {found.integral_safety:.3g} by integral temperature (the former compares rises over the oil's "
+            "temperature, the latter temperatures, so that they may rank oils differently)"
+        )
     return f"safety factor {safety}; {said}. Concepts of ISO/TS 6336-20 and -21"
 
 

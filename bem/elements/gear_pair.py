@@ -43,6 +43,8 @@ _ACROSS = 1024
 """Places over the face at which the lines' length is taken, which is piecewise linear: to 1e-6 of the mean."""
 _NODES = 12
 """Gauss nodes between two marks of the path: sliding losses within 1e-4 of those with four times as many."""
+_DISTANCE_AGREES = 0.01
+"""Difference of a centre distance from that of the profile shifts, over the module, up to which both agree."""
 _MOST_OVERLAP = 100
 """Lines of contact at a time on the mean, ten times those of the widest herringbones: all are held in memory."""
 
@@ -51,7 +53,8 @@ class GearModel(ElementModel):
     """A pair of external gears: module, teeth, torque and speed of the pinion, which drives and is body 1.
 
     Tips are at the module times 1 + x over the reference circle where `tip_diameters` does not say otherwise. Module,
-    pressure angle and profile shifts of helical gears are those of the normal section. The load is the pinion's
+    pressure angle and profile shifts of helical gears are those of the normal section. `centre_distance` alone gives
+    the sum of both profile shifts, of which each gear gets half; beside them it must agree. The load is the pinion's
     `torque`, or the one that gives `hertz_pressure` at the pitch point. For scuffing: `scuffing_load_stage`, 1 to 14,
     at which the oil fails the FZG test A/8.3/90, and `structure_factor`, 1 for case-hardened steels.
     """
@@ -62,6 +65,7 @@ class GearModel(ElementModel):
     pressure_angle: Annotated[Angle, Field(gt=0.17, lt=0.7)] = math.radians(20)
     helix_angle: Annotated[Angle, Field(ge=0, lt=0.8)] = 0.0
     profile_shifts: tuple[Ratio, Ratio] = (0.0, 0.0)
+    centre_distance: PositiveLength | None = None
     tip_diameters: tuple[PositiveLength, PositiveLength] | None = None
     face_width: PositiveLength
     torque: Annotated[Torque, Field(gt=0)] | None = None
@@ -79,6 +83,8 @@ class GearModel(ElementModel):
             raise problem("both torque and hertz_pressure given", "one of them; delete the other")
         try:
             path = path_of_contact(self)
+            if "profile_shifts" in self.model_fields_set and self.centre_distance is not None:
+                self._check_distance(self.centre_distance, path)
         except InputError as error:
             raise problem(error.messages[0], "teeth, shifts and pressure angle of gears that mesh") from None
         leaning = path.overlap / path.base_pitch
@@ -91,6 +97,24 @@ class GearModel(ElementModel):
             said = f"contact ratio {path.contact_ratio:.3g}" + (f" and overlap ratio {leaning:.3g}" if leaning else "")
             raise problem(f"{said}: below 1 the teeth lose each other", "1 and more, both together")
         return self
+
+    def _check_distance(self, given: float, path: Path) -> None:
+        """Refuse profile shifts that do not give the centre distance to a hundredth of the module."""
+        if abs(path.centre_distance - given) > _DISTANCE_AGREES * self.module:
+            total = shifts_of_distance(self, given)
+            raise problem(
+                f"profile_shifts give a centre distance of {1e3 * path.centre_distance:.6g} mm, centre_distance is "
+                f"{1e3 * given:.6g} mm",
+                f"one of both, or profile_shifts with a sum of {total:.4g}",
+            )
+
+    @cached_property
+    def shifts(self) -> tuple[float, float]:
+        """Profile shifts of pinion and wheel: those given, or half each of the sum that the centre distance takes."""
+        if self.centre_distance is None or "profile_shifts" in self.model_fields_set:
+            return self.profile_shifts
+        half = 0.5 * shifts_of_distance(self, self.centre_distance)
+        return half, half
 
     @cached_property
     def pinion_torque(self) -> float:
@@ -253,11 +277,11 @@ def path_of_contact(model: GearModel) -> Path:
     angle = math.atan(math.tan(normal) / math.cos(helix))
     radii = [0.5 * model.module * z / math.cos(helix) for z in (z1, z2)]
     base = [r * math.cos(angle) for r in radii]
-    shifts = sum(model.profile_shifts)
+    shifts = sum(model.shifts)
     working = _inverse_involute(math.tan(angle) - angle + 2 * math.tan(normal) * shifts / (z1 + z2))
     distance = (base[0] + base[1]) / math.cos(working)
     line = distance * math.sin(working)
-    tips = [r + model.module * (1 + x) for r, x in zip(radii, model.profile_shifts, strict=True)]
+    tips = [r + model.module * (1 + x) for r, x in zip(radii, model.shifts, strict=True)]
     if model.tip_diameters is not None:
         tips = [0.5 * d for d in model.tip_diameters]
     reach = [math.sqrt(max(tip**2 - rb**2, 0.0)) for tip, rb in zip(tips, base, strict=True)]
@@ -272,6 +296,24 @@ def path_of_contact(model: GearModel) -> Path:
     base_helix = math.asin(math.sin(helix) * math.cos(normal))
     found = (distance, working, line, start, single, where, end, pitch, base_helix, model.face_width)
     return Path((base[0], base[1]), *found)
+
+
+def shifts_of_distance(model: GearModel, distance: float) -> float:
+    """Return the sum of both profile shifts that a centre distance [m] takes (ISO 21771).
+
+    From cos(alpha_w) = (r_b1 + r_b2) / a and the involute equation of the working pressure angle.
+
+    Raises
+    ------
+    InputError : a centre distance at which the base circles meet.
+    """
+    angle = math.atan(math.tan(model.pressure_angle) / math.cos(model.helix_angle))
+    base = 0.5 * model.module * sum(model.teeth) / math.cos(model.helix_angle) * math.cos(angle)
+    if base >= distance:
+        raise InputError(f"centre_distance: {1e3 * distance:.6g} mm is below the sum of the base radii")
+    working = math.acos(base / distance)
+    involutes = (math.tan(working) - working) - (math.tan(angle) - angle)
+    return involutes * sum(model.teeth) / (2 * math.tan(model.pressure_angle))
 
 
 def _inverse_involute(value: float) -> float:
@@ -298,6 +340,11 @@ def _geometry(model: GearModel, path: Path) -> tuple[str, ...]:
         f"{math.degrees(path.working_angle):.4g} deg, centre distance {1e3 * path.centre_distance:.6g} mm; teeth pass "
         f"the path in {1e3 * (path.end - path.start) / (model.speed * path.base_radii[0]):.3g} ms."
     ]
+    if model.shifts != model.profile_shifts:
+        said.append(
+            f"Each gear has a profile shift of {model.shifts[0]:.4g}, half of the sum that the centre distance takes: "
+            "give profile_shifts if yours are divided otherwise."
+        )
     if path.base_helix:
         lengths = path.lines(path.base_pitch * np.arange(_ACROSS) / _ACROSS)
         shortest, longest = float(lengths.min()), float(lengths.max())
@@ -305,6 +352,6 @@ def _geometry(model: GearModel, path: Path) -> tuple[str, ...]:
             f"Helix {math.degrees(path.base_helix):.4g} deg on the base circles, overlap ratio "
             f"{path.overlap / path.base_pitch:.4g}. The load lies evenly on lines of contact {shortest:.4g} to "
             f"{longest:.4g} faces long together; a place's load is the mean over the face, and "
-            f"{path.contact_ratio / shortest - 1:.2g} more where they are shortest."
+            f"up to {100 * (path.contact_ratio / shortest - 1):.2g} % more where they are shortest."
         )
     return tuple(said)

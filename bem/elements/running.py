@@ -212,6 +212,7 @@ _COLUMNS: dict[str, Callable[[Running], float | None]] = {
     "solved_film_over_roughness": lambda one: one.film_ratio,
     "friction": lambda one: one.friction,
     "friction_power [W]": lambda one: one.power,
+    "rolling_loss [W]": lambda one: one.rolling_power,
     "oil_temperature [K]": lambda one: one.oil,
     "surface_temperature [K]": lambda one: one.surface,
     "flash_temperature [K]": lambda one: one.flash,

@@ -50,7 +50,10 @@ CAP_NOT_OF_SOFTER = define(
     "",
     "Give {material} a hardness of its own.",
     reasons={
-        "stiffer": "{material} has neither hardness nor yield stress: the cap is the {cap:si Pa} of {stiff}.",
+        "stiffer": Reason(
+            "{material} has neither hardness nor yield stress, and is softer than {stiff}.",
+            headline="The pressure limit is that of the harder body: {cap:si Pa}.",
+        ),
         "tensile": (
             "wear.criterion maximum_tension takes the yield stress of {material}, {stress:si Pa}, as its tensile "
             "strength; without a hardness the cap is 2.8 times that, {cap:si Pa}."

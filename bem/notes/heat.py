@@ -26,10 +26,10 @@ SURFACE_HOT = define(
             headline="The surface reaches {temperature:.0f} °C: steel transforms at 727 °C.",
         ),
         "softens": Reason(
-            "It reaches {temperature:.0f} °C: hardened bearing steel is tempered at 150 to 200 °C and softens"
-            " above; most polymers melt below 330 °C.",
+            "It reaches {temperature:.0f} °C: hardened steels of gears, bearings and rings are tempered at 150 to"
+            " 200 °C and soften above that temperature; most polymers melt below 330 °C.",
             "Check the hardness of the bodies at that temperature.",
-            headline="The surface reaches {temperature:.0f} °C: hardened steel softens above 200 °C.",
+            headline="The surface reaches {temperature:.0f} °C: hardened steel may soften above 150 °C.",
         ),
     },
 )

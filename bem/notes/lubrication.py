@@ -308,8 +308,9 @@ LUMPED_HEAT_LIMIT = define(
         "fast": Reason(
             "The thermal loading of the inlet, mu0 beta u^2/k, is {loading:.2g} (mu0 viscosity at ambient pressure, "
             "beta its relative fall per kelvin, u entrainment speed, k thermal conductivity of the oil); above "
-            "{limit:g} films were up to a third too thin, and friction was 10 to 60 % off.",
-            headline="Quick heat (lumped) errs here: films up to a third too thin.",
+            "{limit:g} most films were too thin, by up to a third, some 2 % too thick, and friction was 10 to 60 % "
+            "off.",
+            headline="Quick heat (lumped) errs here: films by up to a third.",
         ),
         "slides": Reason(
             "The slower surface warms the inlet: at a slide-to-roll ratio of 2 flooded films were 1.2 to 2.8 times as "

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import typing
 from collections.abc import Iterable, Sequence
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
 
@@ -14,7 +14,7 @@ from bem.errors import InputError
 from bem.laws import Law, laws_of
 from bem.materials import CATALOGUE
 from bem.scenes.laws import LawOrNumber
-from bem.scenes.units import Dimension
+from bem.scenes.units import Dimension, Number
 from bem.scenes.walk import fields_of_table, literals, members_of, unwrap, without_none
 
 _BARE = re.compile(r"[A-Za-z0-9_-]{1,64}")
@@ -137,12 +137,25 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         if str(context.get("field_type")) == "Tuple":
             many = str(least if most is None else most)
         return f"{where}: {context['actual_length']} values; allowed: {many}{allowed.replace('; allowed:', ', each')}"
+    if kind == "tuple_type":
+        return f"{where}: not a list; allowed: {_listed(annotation)}"
     text = str(mistake["msg"]).replace("Input should be", "must be").replace("Input should have", "must have")
     if kind.startswith(("greater_than", "less_than")) and dimension and dimension.unit:
         text += f" {dimension.unit}"
     if kind.startswith("greater_than") and key in ("contact.load", "contact.mean_pressure"):
         allowed += _PULLED * ("load_path" in _names_at(mistake["loc"][:-1], data, model))
     return f"{where}: {text}{allowed}"
+
+
+def _listed(annotation: Any) -> str:
+    """Return how many values a list of fixed length has, with an example where they are quantities."""
+    each = get_args(without_none(annotation))
+    found = (item for item in _spread(unwrap(each[0])[1]) if isinstance(item, Dimension)) if each else iter(())
+    dimension = next(found, None)
+    if dimension is None or Ellipsis in each:
+        return f"a list of {len(each)} values" if each and Ellipsis not in each else "a list"
+    example = dimension.example if isinstance(dimension, Number) or not dimension.unit else f'"{dimension.example}"'
+    return f"a list of {len(each)} values, such as [{', '.join([example] * len(each))}]"
 
 
 def _meaning(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> str:

@@ -109,6 +109,28 @@ def test_rows_stand_exactly_at_the_marks():
     assert all((f"near {name}" in words) == (name not in exact) for name in few.found.marks)
 
 
+@pytest.mark.parametrize("helix", ["0 deg", "18 deg"])
+def test_the_centre_distance_gives_the_sum_of_the_shifts(helix):
+    """Back from the distance that shifts give; without shifts each gear has half; what does not agree is refused."""
+    more = {"helix_angle": helix, "module": "2.5 mm", "teeth": [23, 57]}
+    shifted = made(profile_shifts=[0.24, 0.1104], **more)
+    distance = path_of_contact(shifted.model).centre_distance
+    alone = made(centre_distance=distance, **more)
+    assert alone.model.shifts == pytest.approx((0.1752, 0.1752), abs=1e-9)
+    assert path_of_contact(alone.model).centre_distance == pytest.approx(distance, rel=1e-12)
+    assert any("half of the sum" in one for one in alone.found.geometry)
+    both = made(centre_distance=distance + 20e-6, profile_shifts=[0.24, 0.1104], **more)
+    assert both.found.contacts == shifted.found.contacts
+    with pytest.raises(InputError, match=r"profile_shifts with a sum of 0\.39"):
+        made(centre_distance=distance + 100e-6, profile_shifts=[0.24, 0.1104], **more)
+    with pytest.raises(InputError, match="below the sum of the base radii"):
+        made(centre_distance="90 mm", **more)
+    with pytest.raises(InputError, match=r"did you mean .centre_distance."):
+        made(center_distance=distance, **more)
+    with pytest.raises(InputError, match=r"not a list; allowed: a list of 2 values, such as \["):
+        made(profile_shifts="0.24", **more)
+
+
 @pytest.mark.internal
 @pytest.mark.parametrize("helix", ["0 deg", "18 deg"])
 def test_losses_do_not_depend_on_the_points(helix):

@@ -182,7 +182,8 @@ def test_what_a_kind_needs_is_named():
 
 
 def test_materials_without_hardness_share_the_load_elastically():
-    soft = element_of("gear-pair", first="grey-cast-iron", second="grey-cast-iron")
+    bare = {"name": "bare", "youngs_modulus": "130 GPa", "poissons_ratio": 0.3}
+    soft = element_of("gear-pair", first=bare, second=bare)
     assert load_scene(soft.scene(soft.worst(), "friction")).sharing.models == ["elastic"]
     with pytest.raises(InputError, match="hardness"):
         plan_scene(soft.scene(soft.worst(), "running-in"))

@@ -32,7 +32,9 @@ _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="fir
 _LOADS = ("contact_load", "film_load")
 _OTHER = "these values are for comparison only, within 0.1 % of the oil volume"
 _other_oil = partial(_curve, no_bar=_OTHER)
-_supplied = partial(_curve, optional=True, no_bar="it goes with the minimum film: look at that of it")
+_supplied = partial(
+    _curve, optional=True, no_bar="they follow the minimum film, whose error bar shows how well the film is resolved"
+)
 _heated = partial(_curve, "C", optional=True)
 
 
