@@ -156,7 +156,7 @@ class Monitors:
             share = float(worn[np.isnan(number)].sum() / worn.sum())
             return (PIECES_IN_SOME_STEPS(law=law, share=share),) if share > _LEFT_OUT else ()
         takes = "Wear goes on by its law; particles have no sizes and numbers."
-        return (NOTHING_CAME_OFF("particles", level=Level.INFO, law=law, takes=takes, beside=""),)
+        return (NOTHING_CAME_OFF("particles", level=Level.INFO, law=law, takes=takes, beside="", reason="weak"),)
 
     def figures(self, cycle: FloatArray, end: LifeState) -> dict[str, Any]:
         """Return the figures of a record at its cycles (n,); None for figures without a monitor."""

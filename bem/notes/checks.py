@@ -528,9 +528,23 @@ NOTHING_CAME_OFF = define(
     "nothing-came-off",
     CAUTION,
     "The wear criterion {law} removed no particle{beside}.",
-    "{takes}",
-    "Raise load, friction or cycles.count, check yield_stress and the constants of wear.criterion, or wear by a "
-    "measured rate with kind running-in-life.",
+    reasons={
+        "weak": Reason(
+            "{takes}",
+            "Raise load, friction or cycles.count, check yield_stress and the constants of wear.criterion, or wear by "
+            "a measured rate with kind running-in-life.",
+        ),
+        "repeats": Reason(
+            "{takes} Without wear every turn of the roughness repeats the one before: more cycles change nothing.",
+            "Raise load or friction, check yield_stress and the constants of wear.criterion, or wear by a measured "
+            "rate with kind running-in-life.",
+        ),
+        "rolls": Reason(
+            "{takes} The surfaces roll without sliding (slide-to-roll ratio {ratio:.2g}), so that nothing rubs: more "
+            "cycles change nothing.",
+            "Set speeds.slide_roll_ratio, such as 0.02, or wear by a measured rate with kind running-in-life.",
+        ),
+    },
 )
 PARTICLES_CUT = define(
     "particles-cut",

@@ -123,8 +123,17 @@ PURE_ROLLING = define(
     "pure-rolling",
     CAUTION,
     "Pure rolling: asperities carry load but do not rub.",
-    "The slide-to-roll ratio is {ratio:.2g}; friction is that of the film alone.",
-    "For a Stribeck curve set speeds.slide_roll_ratio, such as 0.02.",
+    reasons={
+        "curve": Reason(
+            "The slide-to-roll ratio is {ratio:.2g}; friction is that of the film alone.",
+            "For a Stribeck curve set speeds.slide_roll_ratio, such as 0.02.",
+        ),
+        "wear": Reason(
+            "The slide-to-roll ratio is {ratio:.2g}: without friction no number of cycles wears surfaces that their "
+            "pressure alone leaves whole.",
+            "For running-in set speeds.slide_roll_ratio, such as 0.02.",
+        ),
+    },
 )
 BOUNDARY_LUBRICATION = define(
     "boundary-lubrication",

@@ -855,6 +855,27 @@ def test_running_in_tells_of_particles_of_one_cell_by_their_mean():
 
 
 @pytest.mark.internal
+@pytest.mark.parametrize(
+    ("changes", "summary", "words", "action"),
+    [
+        (("speeds.slide_roll_ratio=0",), {}, "roll without sliding", "Set speeds.slide_roll_ratio"),
+        (("speeds.slide_roll_ratio=0.5",), {"friction_first_turn": [0.05]}, "repeats the one before", "Raise load or"),
+        (("speeds.slide_roll_ratio=0.5",), {}, "", "cycles.count"),
+    ],
+)
+def test_more_cycles_are_advised_only_where_they_may_change_something(changes, summary, words, action):
+    """In pure rolling and after a whole turn without wear every cycle is like those before."""
+    facts = facts_of("running-in-ball", *changes)
+    nothing = Outcome({"particles_per_cycle": [0.0] * len(facts.cases), **summary}, {})
+    (told, *_) = OUTCOME_CHECKS["nothing_comes_off"](facts, nothing)
+    assert words in told
+    assert action in told
+    assert ("cycles.count" in told) == (action == "cycles.count")
+    foreseen = list(SCENE_CHECKS["surfaces_only_roll"](facts))
+    assert len(foreseen) == (changes == ("speeds.slide_roll_ratio=0",))
+
+
+@pytest.mark.internal
 @pytest.mark.parametrize(("criterion", "words"), [("junction", "must be 426 nm wide"), ("low_cycle_fatigue", "passes")])
 def test_nothing_comes_off_and_why(criterion, words):
     facts = facts_of("wear-steel-steel", f"wear.criterion={criterion}")

@@ -33,14 +33,20 @@ _ROLLS = 1e-4
 
 @scene_check
 def surfaces_only_roll(facts: Facts) -> Iterator[Note]:
-    """A Stribeck curve of pure rolling has no friction of asperities: what is left is that of the film's rolling."""
-    if not facts.of_kind("friction"):
-        return
+    """In pure rolling asperities have no friction: a Stribeck curve is that of the film's rolling, and in running-in
+    pressure alone would have to wear the surfaces."""
+    if (ratio := pure_rolling(facts)) is not None:
+        yield PURE_ROLLING("speeds", ratio=ratio, reason="wear" if facts.of_kind("running-in") else "curve")
+
+
+def pure_rolling(facts: Facts) -> float | None:
+    """Return the slide-to-roll ratio of a scene of mixed lubrication whose surfaces only roll; None of others."""
+    if not facts.of_kind("friction", "running-in"):
+        return None
     from bem.scenes.lubrication import slide_roll_ratio
 
     ratio = float(slide_roll_ratio(facts.scene.speeds.other_over_flat))
-    if abs(ratio) < _ROLLS:
-        yield PURE_ROLLING("speeds", ratio=ratio)
+    return ratio if abs(ratio) < _ROLLS else None
 
 
 @scene_check

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,7 @@ from bem.quantities import si
 from bem.scenes.build import AnySurface
 from bem.scenes.checks.contact import hertz_pressure_above_hardness, yield_below_the_surface
 from bem.scenes.checks.facts import Case, Facts
+from bem.scenes.checks.operation import pure_rolling
 from bem.scenes.checks.registry import outcome_check
 from bem.scenes.checks.roughened import roughened
 from bem.scenes.checks.words import numbers, times
@@ -388,13 +390,26 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     counts = numbers(outcome.summary.get("particles_per_cycle"))
     if len(counts) != len(facts.cases):  # cases that are alike to the checks
         counts = [max(counts, default=0.0)] * len(facts.cases)
+    turned = outcome.summary.get("friction_first_turn") is not None  # whole turns of the roughness
     stresses = np.ravel(np.array(outcome.summary.get("largest_stress_Pa"), dtype=np.float64))
     stresses = stresses if len(stresses) == len(counts) else np.full(len(counts), np.nan)
     for number, case, stress in zip(counts, facts.cases, stresses, strict=True):
         if number == 0 and case.wear is not None and case.wear.finds_particles.needs_strength:
             takes = _what_it_takes(case) or _how_far(case, float(stress))
             beside = _beside_strength(case, float(stress))
-            yield NOTHING_CAME_OFF(case.label, law=case.wear.finds_particles.name, takes=takes, beside=beside)
+            law = case.wear.finds_particles.name
+            note = partial(NOTHING_CAME_OFF, case.label, law=law, takes=takes, beside=beside)
+            if (ratio := pure_rolling(facts)) is not None:
+                yield note(ratio=ratio, reason="rolls")
+            else:
+                yield note(reason="repeats" if turned and not _remembers(case) else "weak")
+
+
+def _remembers(case: Case) -> bool:
+    """Return True if the criterion adds up damage, so that cycles of which nothing comes off differ."""
+    from bem.wear.criterion import LowCycleFatigue
+
+    return case.wear is not None and isinstance(case.wear.criterion, LowCycleFatigue)
 
 
 def _beside_strength(case: Case, stress: float) -> str:
