@@ -18,7 +18,4 @@ CITES = {
     "brandt1990": "multilevel integration",
     "venner2000": "multigrid",
     "nijenbanning1994": "start of the film",
-    "greenwood1994": "waves of roughness in the film",
-    "hooke2000": "waves of roughness in the film",
-    "morales2011": "waves of roughness in the film",
 }

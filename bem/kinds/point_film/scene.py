@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from typing import Literal
 
 from pydantic import model_validator
@@ -9,7 +10,7 @@ from pydantic import model_validator
 from bem.grid import Grid
 from bem.kinds.point_film.touching import TouchingScene, check_touching
 from bem.kinds.point_film.waves import PointFilmCellsScene, check_point_waves
-from bem.scenes import build
+from bem.scenes import build, sources
 from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel
 from bem.scenes.keys import key
 from bem.scenes.oil import OilScene
@@ -51,6 +52,12 @@ class PointFilmScene(SceneModel):
         self.oil.check_point_film()
         check_layer(self.supply, self.rolling)
         return self
+
+    def cited_methods(self) -> Iterator[Mapping[str, str]]:
+        """See `SceneModel`."""
+        yield from super().cited_methods()
+        if self.by_waves:
+            yield sources.WAVES
 
     @property
     def by_waves(self) -> bool:

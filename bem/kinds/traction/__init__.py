@@ -13,9 +13,6 @@ ALSO: tuple[str, ...] = (
     "traction-curve",
 )
 CITES = {
-    "greenwood1994": "waves of roughness in the film",
-    "hooke2000": "waves of roughness in the film",
-    "morales2011": "waves of roughness in the film",
     "reynolds1886": "Reynolds equation",
     "dowson1966": "elastohydrodynamic line contact",
 }

@@ -85,6 +85,8 @@ class TractionScene(SceneModel):
         yield from super().cited_methods()
         if self.thermal != "off":
             yield from (sources.HEAT[self.thermal], sources.MOVING_HEAT)
+        if self.by_waves:
+            yield sources.WAVES
 
     @property
     def by_waves(self) -> bool:
