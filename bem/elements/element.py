@@ -314,7 +314,8 @@ class Element:
             notes.append(bare)
         wide = [one.name for one in self.found.contacts if one.is_wide(self.modulus)]
         if wide and not isinstance(self.model, PlainBushModel):  # a bush is solved as round as it is
-            notes.append(SLOPES_LARGE(places=len(wide), first=wide[0], limit=WIDE, reason="element"))
+            others = f" and {len(wide) - 1} more place{'s' if len(wide) > 2 else ''}" if len(wide) > 1 else ""
+            notes.append(SLOPES_LARGE(first=wide[0], others=others, limit=WIDE, reason="element"))
         if (soft := self._yielding()) is not None:
             notes.append(soft)
         cold = dict.fromkeys(one.name for one in self.bodies if not one.thermal_diffusivity)

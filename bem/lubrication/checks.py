@@ -176,11 +176,16 @@ def _load_share(case: Case, where: NDArray[np.bool_]) -> float:
     return float(case.integral(np.where(where, case.pressure, 0.0)) / max(case.integral(case.pressure), 1e-300))
 
 
+_ROLLS = 1e-9
+"""Difference of both speeds over their sum up to which a contact rolls without sliding."""
+
+
 def viscosity_beyond_range(case: Case) -> Note | None:
     """Return a note if the viscosity law is used beyond its pressures.
 
     Between elastic bodies this counts above 10 % of the load; a spike holds up to 5 % of it at many times the Hertz
-    pressure, as high as the mesh makes it.
+    pressure, as high as the mesh makes it. There it changes sliding friction alone, so none is returned in pure
+    rolling.
     """
     oil, largest = case.lubricant, case.lubricant.viscosity_law.described.largest_pressure
     beyond = case.pressure > largest
@@ -189,10 +194,32 @@ def viscosity_beyond_range(case: Case) -> Note | None:
         highest = case.pressure[~beyond].max(initial=0.0)
         return _glass(oil) if case.not_found is None and oil.viscosity_at(np.array([highest]))[0] > GLASS else None
     reason = "rigid" if math.isinf(case.contact_modulus) else "elastic"
+    if reason == "elastic" and abs(case.speeds[0] - case.speeds[1]) <= _ROLLS * abs(sum(case.speeds)):
+        return None
     level = Level.CAUTION if reason == "rigid" else None
-    return VISCOSITY_EXTRAPOLATED(
-        level=level, reason=reason, limit=float(largest), law=oil.viscosity_law.described.name
-    )
+    name = oil.viscosity_law.described.name
+    factors = law_factors(estimated=_is_estimated(oil)) if name == "roelands" else ""
+    return VISCOSITY_EXTRAPOLATED(level=level, reason=reason, limit=float(largest), law=name, factors=factors)
+
+
+def law_factors(*, estimated: bool) -> str:
+    """Return in words how far Roelands' law is from measured viscosities at 1 GPa.
+
+    estimated : whether the pressure-viscosity coefficient is that of a correlation. The numbers are those of
+        tests/reports/test_friction_report.py, of three oils that Mann (1995) measured.
+    """
+    known = "an estimated pressure-viscosity coefficient, as of this oil" if estimated else "a measured coefficient"
+    factors = "0.001 to 6" if estimated else "0.001 to 1.3"
+    return f": at 1 GPa Roelands' law with {known} gave {factors} times the viscosity measured on three oils"
+
+
+def _is_estimated(oil: Lubricant) -> bool:
+    """Return True if the pressure-viscosity coefficient is that of a correlation of the catalogue."""
+    source = oil.oil
+    if source is None or oil.temperature is None or source.pressure_viscosity is None:
+        return False
+    estimate = source.pressure_coefficient(oil.temperature)
+    return source.pressure_viscosity.name != "given" and math.isclose(oil.pressure_viscosity, estimate, rel_tol=1e-6)
 
 
 def _glass(oil: Lubricant) -> Note:

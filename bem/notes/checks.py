@@ -87,8 +87,8 @@ SLOPES_LARGE = define(
             "Expect errors of several per cent, or use finite elements with large deformations.",
         ),
         "element": Reason(
-            "At {places} places ({first}, ...) it reaches over {limit:g} of a body's radius: the gap of conforming"
-            " bodies is up to 7 % and more over the parabola of Hertz and of scenes.",
+            "It reaches over {limit:g} of a body's radius at {first}{others}: the gap of conforming bodies is up to"
+            " 7 % and more over the parabola of Hertz and of scenes.",
             "Take the pressures there as estimates.",
         ),
         "worn": Reason(

@@ -150,13 +150,13 @@ BOUNDARY_LUBRICATION = define(
 POINT_FILM_SCALED = define(
     "point-film-scaled",
     CAUTION,
-    "The film is scaled from that under another load, not solved.",
+    "The film under this load is extrapolated from a smaller load, not solved.",
     reasons={
         "thin": Reason(
-            "It is thinner than its cells can show and scaled from a smaller load by Hertz' pressure and the fit of"
-            " Nijenbanning, Venner and Moes: 12 % too thick at 2.5 times that load, up to 40 % at 6 times; its minimum"
-            " is not to be used{factors}.",
-            "Take more cells of the film.",
+            "It is thinner than the cells of its mesh can show. It is scaled from the largest load whose film was "
+            "solved, by Hertz' pressure and the fit of Nijenbanning, Venner and Moes: 12 % too thick at 2.5 times that "
+            "load, up to 40 % at 6 times; its minimum is not to be used{factors}.",
+            "Set more film.cells: a finer mesh solves films under larger loads.",
         ),
         "layer": Reason(
             "No film of a thin layer of oil was found under so light a load; pressure goes on as Hertz', and the film"

@@ -133,10 +133,9 @@ VISCOSITY_EXTRAPOLATED = define(
     "The viscosity law does not hold at the pressures in the contact.",
     reasons={
         "elastic": (
-            'They exceed {limit:si Pa}, up to which viscosity_law "{law}" describes oils; the film thickness does not '
-            "suffer, since the film forms in the inlet, where pressures are lower. Friction does, where the oil is "
-            "below its limiting stress: at 1 GPa Roelands' law has 0.001 to 1.3 times the viscosity of three measured "
-            "oils with their measured pressure-viscosity coefficient, and 0.001 to 6 times with the estimated one."
+            'They exceed {limit:si Pa}, up to which viscosity_law "{law}" describes oils. The film thickness does not '
+            "suffer, since the film forms in the inlet, at lower pressures. Sliding friction is uncertain where the "
+            "oil stays below its limiting stress{factors}."
         ),
         "rigid": Reason(
             'They exceed {limit:si Pa}, up to which viscosity_law "{law}" describes oils; between rigid bodies the '

@@ -14,6 +14,7 @@ from bem.elements.rolling_bearing import BearingModel, _centrifugal, load_integr
 from bem.elements.running import Running
 from bem.errors import Status
 from bem.notes import Level
+from bem.notes.checks import SLOPES_LARGE
 from bem.notes.general import VALUE_UNUSUAL
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -179,6 +180,17 @@ def test_unusual_clearance_and_tilt_have_a_caution(change, words):
     found = [str(note) for note in load_element(ROLLERS | change).notes() if note.code == VALUE_UNUSUAL.code]
     assert len(found) == (words is not None)
     assert words is None or words in found[0]
+
+
+def test_a_wide_contact_names_its_places():
+    """One place is no "1 places"."""
+    for load, words in (
+        ("3.6 kN", "at inner ring, 0 deg: the gap"),
+        ("20 kN", "at inner ring, 0 deg and 5 more places: the gap"),
+    ):
+        wide = load_element(BALLS | {"radial_load": load})
+        (note,) = [str(one) for one in wide.notes() if one.code == SLOPES_LARGE.code]
+        assert words in note
 
 
 def test_the_template_is_a_good_one(tmp_path):

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from bem.errors import InputError
 from bem.lubrication import Lubricant, march_line_film, solve_line_film
 from bem.lubrication.checks import Case, shear_beyond_measurements, viscosity_beyond_range
+from bem.lubrication.oils.catalogue import find_oil
 from bem.notes import has_code
 from bem.notes.lubrication import (
     FILM_MOLECULAR,
@@ -60,7 +61,12 @@ def test_a_spike_alone_is_not_the_middle_of_the_contact():
     assert film.status == "converged"
     assert not about(film, VISCOSITY_EXTRAPOLATED)
     above = ROLLER | {"load": math.pi * 10e-3 * 1.03e9**2 / MODULUS}
-    assert about(solve_line_film(**above, speeds=(3.0, 3.0), lubricant=oil), VISCOSITY_EXTRAPOLATED)
+    (note,) = about(solve_line_film(**above, speeds=(3.0, 2.99), lubricant=oil), VISCOSITY_EXTRAPOLATED)
+    assert "with a measured coefficient gave 0.001 to 1.3 times" in str(note)
+    assert not about(solve_line_film(**above, speeds=(3.0, 3.0), lubricant=oil), VISCOSITY_EXTRAPOLATED)
+    estimated = find_oil("ISO VG 68").at(313.15)
+    (note,) = about(solve_line_film(**above, speeds=(1.0, 0.99), lubricant=estimated), VISCOSITY_EXTRAPOLATED)
+    assert "as of this oil gave 0.001 to 6 times" in str(note)
 
 
 @pytest.mark.internal
@@ -173,7 +179,12 @@ def test_reversed_and_in_time_the_same_limit_holds():
         ((3.0, 3.0), {}, FILM_SPIKE, None),
         ((20.0, 20.0), {}, HEAT_LEFT_OUT, "inlet"),
         ((5.0, 2.0), {}, HEAT_LEFT_OUT, "sliding"),
-        ((0.1, 0.1), {"viscosity_law": "barus", "density_law": "dowson_higginson"}, VISCOSITY_EXTRAPOLATED, "elastic"),
+        (
+            (0.1, 0.099),
+            {"viscosity_law": "barus", "density_law": "dowson_higginson"},
+            VISCOSITY_EXTRAPOLATED,
+            "elastic",
+        ),
     ],
 )
 def test_each_note_where_it_belongs_and_not_beside(speeds, oil, kind, reason):

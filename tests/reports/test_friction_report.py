@@ -5,6 +5,7 @@ import html
 import numpy as np
 import pytest
 
+from bem.lubrication.checks import law_factors
 from bem.notes.lubrication import VISCOSITY_EXTRAPOLATED
 from reports import friction, reproducible
 from reports.experiments import (
@@ -202,8 +203,9 @@ def test_the_note_of_roelands_law_has_its_factors_at_1_gpa():
         law, slope = own.viscosity_law, 1e-9 * row["alpha_measured"]
         (logarithm,), _ = law.log_viscosity_ratio(np.array([1e9]), own.viscosity, slope)
         alone.append(np.exp(logarithm - row["measured"]))
-    text = str(VISCOSITY_EXTRAPOLATED(limit=1e9, law="roelands", reason="elastic"))
-    for factors in (alone, estimated):
+    for is_estimated, factors in ((False, alone), (True, estimated)):
+        words = law_factors(estimated=is_estimated)
+        text = str(VISCOSITY_EXTRAPOLATED(limit=1e9, law="roelands", reason="elastic", factors=words))
         assert f"{min(factors):.1g} to {max(factors):.2g} times" in text
 
 

@@ -30,7 +30,10 @@ from bem.scenes.tables.sharing import BAR_OF_HEAT, BASELINE
 _WAVES = "the waves are linear in the heights, and were compared with marches"
 _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="first")
 _LOADS = ("contact_load", "film_load")
-_OTHER = "these values are for comparison only, within 0.1 % of the oil volume"
+_OTHER = (
+    "the balance with the oil beside the contact counted otherwise only shows how far the result depends on it; it is "
+    "solved to 0.1 % of the oil volume"
+)
 _other_oil = partial(_curve, no_bar=_OTHER)
 _supplied = partial(
     _curve, optional=True, no_bar="they follow the minimum film, whose error bar shows how well the film is resolved"

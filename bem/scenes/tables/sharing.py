@@ -82,7 +82,7 @@ class SharingScene(Table):
 
 TEMPERATURES = ("contact_temperature", "flash_temperature")
 """Figures of a contact whose heat was asked for."""
-BAR_OF_HEAT = "its error follows from that of the friction coefficient"
+BAR_OF_HEAT = "the error follows from that of the friction coefficient"
 """Reason why temperatures have no error bar."""
 heated = partial(Figure, "C", optional=True, no_bar=BAR_OF_HEAT)
 """One of them, in words."""

@@ -500,7 +500,7 @@ def test_a_layer_of_the_bodies_own_material_changes_nothing_and_a_soft_one_does(
 
 
 def test_notes_say_where_the_model_ends():
-    heavy = moes(1500, 14)
+    heavy = moes(1500, 14, slide=0.01)
     film = solve_point_film(**heavy, shape=(64, 64))
     assert has_code(film.notes, VISCOSITY_EXTRAPOLATED)
     plain = solve_point_film(**moes(60, 4), shape=(64, 64))
