@@ -103,12 +103,16 @@ def catalogue_sources(scene: SceneModel) -> dict[str, str]:
     They are sentences that name several papers and say what is assumed, not entries of `bem.references`.
     """
     from bem.lubrication.oils.catalogue import find_oil
+    from bem.profiles.catalogue import SOURCES as PROFILE_SOURCES
     from bem.scenes.checks.overview import oil as oil_rows
+    from bem.scenes.profile import ProfileScene
 
     found: dict[str, str] = {}
     for item in _inside(scene):
         if isinstance(item, MaterialScene) and item.source:
             found[f"material {item.name}"] = item.source
+        elif isinstance(item, ProfileScene) and item.catalogue is not None:
+            found[f"profile {item.catalogue}"] = PROFILE_SOURCES[item.catalogue]
         elif isinstance(item, GeneratedSurface) and item.source:
             found["generated surface"] = item.source
         elif isinstance(item, OilScene) and item.grade:

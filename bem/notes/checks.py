@@ -293,8 +293,7 @@ TRIBOFILM_ON_COATING = define(
     "The tribofilm grows on a coating.",
     reasons={
         "growth": Reason(
-            "Growth constants of the literature were measured on steel. On {material} a film may grow slower, stay"
-            " thinner or not form at all.",
+            "On {material} a film may grow slower, stay thinner or not form at all.",
             "Calibrate them on films that grew on it (`bem calibrate`), or take the result as a limit.",
             headline="Growth constants come from steel; the film grows on a coating.",
         ),
@@ -320,14 +319,36 @@ RESIDUAL_STRESS = define(
     "residual-stress",
     INFO,
     "Stresses below the surface include residual stresses of layers.",
-    "The {body} body has {found}, which von Mises stress, tension, yielded volume and criteria of stress include. The "
-    "contact pressure does not depend on it: it causes no traction across the surface or an interface.",
+    reasons={
+        "stresses": "The {body} body has {found}, which von Mises stress, tension, yielded volume and criteria of "
+        "stress include. The contact pressure does not depend on it: it causes no traction across the surface or an "
+        "interface.",
+        "pressure": Reason(
+            "The {body} body has {found}: it causes no traction across the surface or an interface.",
+            headline="The residual stress of a layer changes no result of this kind.",
+        ),
+    },
+)
+LAYER_STRESSES_OFF = define(
+    "layer-stresses-off",
+    INFO,
+    "Stresses by layer and interface are not among the results.",
+    "The {body} body has {count}; outputs.stresses = false leaves their highest stresses, tension and yield "
+    "ratios out.",
+    "Set outputs.stresses = true.",
+)
+LAYER_THICKNESS_UNUSUAL = define(
+    "layer-thickness-unusual",
+    CAUTION,
+    "The thickness of a layer is not a usual one of this coating.",
+    "layers[{number}] ({material}) is {thickness:si m} thick; usual are {low:si m} to {high:si m}.",
+    "Check thickness and its unit.",
 )
 RESIDUAL_STRESS_UNUSUAL = define(
     "residual-stress-unusual",
     CAUTION,
     "The residual stress is not a usual one of this coating.",
-    "Layer {number} ({material}) has {stress:si Pa}; usual are {low:si Pa} to {high:si Pa}, negative in compression.",
+    "layers[{number}] ({material}) has {stress:si Pa}; usual are {low:si Pa} to {high:si Pa}, negative in compression.",
     "Check the sign of residual_stress, and the source of the value.",
 )
 PARTICLES_OF_MESH = define(
@@ -406,18 +427,18 @@ HARDNESS_DECIDES = define(
             "finer cells a part of the contact may be."
         ),
         "load": Reason(
-            "The load is {ratio:.2g} of hardness x area of the grid, and rough valleys would carry more than the"
-            " hardness.",
+            "The load is {ratio:.2g} of the pressure cap (contact.hardness, or that of the softer body) x area of the "
+            "grid. Near one, valleys of rough surfaces carry more than the hardness, which the cap leaves out.",
             "Take a smaller load or a larger grid.",
             CAUTION,
             foreseen=True,
-            headline="Most of the patch reaches the hardness; real asperities would resist more.",
+            headline="Most of the patch reaches the hardness, where the model has no strain hardening.",
         ),
         "area": Reason(
             "{share:%} of the patch is in contact; above about half rough valleys resist, which a cap leaves out.",
             "Take a smaller load or a larger grid.",
             CAUTION,
-            headline="Most of the patch has yielded; real asperities would resist more.",
+            headline="Most of the patch has yielded; valleys of a rough surface would resist more.",
         ),
     },
 )

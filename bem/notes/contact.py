@@ -218,8 +218,12 @@ LINE_APPROACH = define(
     "line-approach",
     CAUTION,
     "The approach of a line contact has no absolute zero.",
-    "It depends on the depth of the bodies, here on the length of the grid; only differences of approaches at one grid"
-    " have a meaning.",
+    reasons={
+        "elastic": "It depends on the depth of the bodies, here on the length of the grid; only differences of "
+        "approaches at one grid have a meaning.",
+        "steady": "It depends on the depth of the bodies, here on the length of the grid. In steady motion that part"
+        " changes with the speed, too, so that approaches at two speeds cannot be compared.",
+    },
 )
 MEAN_GAP_NOT_MET = define(
     "mean-gap-not-met",

@@ -5,7 +5,7 @@ from bem.notes.note import Level, define
 VALUE_UNUSUAL = define(
     "value-unusual",
     Level.CAUTION,
-    "{quantity} {value} is outside its usual range.",
+    "The {quantity}, {value}, is outside its usual range.",
     "Usual are {usual}.",
     "{check}.",
 )

@@ -403,10 +403,28 @@ def input_share_tables(summary: Mapping[str, Any]) -> list[FigureTable]:
         return []
     keys.sort(key=lambda key: -max(each.get(key, 0.0) for each in shares.values()))
     rows = tuple(
-        (name_and_unit(name)[0], *(f"{100 * each[key]:.3g} %" if key in each else "-" for key in keys))
+        (
+            name_and_unit(name)[0] + (_ALL_LAYERS if _is_of_layers(name, summary) else ""),
+            *(_percent(each[key]) if key in each else "-" for key in keys),
+        )
         for name, each in shares.items()
     )
     return [FigureTable("Share of each uncertain input in the variance by inputs", ("figure", *keys), rows)]
+
+
+_ALL_LAYERS = " (all layers together)"
+_LEAST_SHARE = 1e-4
+
+
+def _is_of_layers(name: str, summary: Mapping[str, Any]) -> bool:
+    """Return True for a figure with an entry for each of several layers or interfaces."""
+    layers = summary.get("layer_material")
+    return name.startswith(("layer_", "interface_")) and isinstance(layers, list) and len(layers) > 1
+
+
+def _percent(share: float) -> str:
+    """Return a share in per cent, "0" below a hundredth of one."""
+    return "0 %" if abs(share) < _LEAST_SHARE else f"{100 * share:.3g} %"
 
 
 def accuracy_tables(summary: Mapping[str, Any]) -> list[FigureTable]:

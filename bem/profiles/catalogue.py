@@ -31,6 +31,18 @@ from bem.profiles.profile import Profile
 _STEP = 0.2
 """Distance of points along a piece [mm]: the spline's error on an arc of 13 mm is below 1e-6 mm."""
 
+SOURCES = {
+    "60e1": "profile UIC 60, EN 13674-1 (arcs of 300, 80 and 13 mm), as a public page on drawing rail profiles gives "
+    "it; the standard was not read",
+    "s1002": "profile S1002, UIC 510-2 and EN 13715, with the polynomials and arcs of H. Netter (DLR), as course "
+    "material quotes them; the standards were not read",
+    "en15302-rail-a": "reference rail A of EN 15302:2021, as the open-source program EN15302 has it; the standard was "
+    "not read",
+    "en15302-wheel-a": "reference wheel A of EN 15302:2021, as the open-source program EN15302 has it; the standard "
+    "was not read",
+}
+"""Sources of the profiles by their names."""
+
 Points = tuple[FloatArray, FloatArray]
 
 

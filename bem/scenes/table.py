@@ -47,7 +47,7 @@ def exactly_one(table: BaseModel, *names: str) -> None:
     """Refuse a table that gives none or several of `names`."""
     given = [name for name in names if getattr(table, name) is not None]
     if len(given) != 1:
-        found = "none is given" if not given else f"{' and '.join(given)} are given"
+        found = f"none of {', '.join(names)} is given" if not given else f"{' and '.join(given)} are given"
         raise PydanticCustomError(
             "scene",
             "{problem}; allowed: {allowed}",

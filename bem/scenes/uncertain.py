@@ -9,6 +9,7 @@ verified in tests/scenes/test_uncertain.py.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -66,7 +67,10 @@ def deviation(scene: BaseModel, key: str, given: str | float, unit: str) -> floa
     if not numbers:
         other = key.replace(".layer.", ".layers[0].") if ".layer." in key else key.replace(".layers[0].", ".layer.")
         found_there = other != key and _numbers(value_of(scene, other))
-        hint = f' - did you mean "{other}"?' if found_there else did_you_mean(key, _keys_of_numbers(scene))
+        known = list(_keys_of_numbers(scene))
+        numbered = next((one for one in known if re.sub(r"\[\d+\]", "", one) == key), None)
+        other = numbered or other
+        hint = f' - did you mean "{other}"?' if numbered or found_there else did_you_mean(key, known)
         raise InputError(
             f'uncertain."{key}": no number is set there; allowed: a dotted key of the scene whose value is set and has '
             f"decimals, such as contact.load{hint}"

@@ -27,6 +27,12 @@ _NEWTON_METRE = re.compile(r"(?<![A-Za-zµμ])Nm(?![A-Za-z0-9])")
 _ANGLE_IN_UNIT = re.compile("rpm|rps|rad|deg|°|rev|turn|cycle", re.IGNORECASE)
 _TURNS = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*(?:1\s*/\s*min|/\s*min|min\s*(?:\^|\*\*)?\s*-1|min⁻¹)\s*")
 """Speeds of rotation per minute whose unit says no angle."""
+_VICKERS = re.compile(r"HV\s*[0-9.]*")
+"""Vickers hardness, with or without the force of the test, as in HV10 or HV0.05 (ISO 6507-1)."""
+_VICKERS_UNIT = Decimal("9.80665e6")
+"""One HV [Pa]: a kilogram-force per square millimetre of the indentation's surface (ISO 6507-1)."""
+_OTHER_HARDNESS = re.compile(r"H(R[A-Z]*|B[A-Z]*|K|S)\s*[0-9.]*")
+"""Rockwell, Brinell, Knoop and Shore hardness, which no factor makes a pressure."""
 _COMMON_UNITS = (
     *("m", "mm", "um", "nm", "angstrom", "m^2", "um^2", "mm^2", "m^3", "nm^3", "angstrom^3", "1/m"),
     *("N", "mN", "uN", "nN", "kN", "N/m", "Pa", "kPa", "MPa", "GPa", "1/Pa", "1/MPa", "1/GPa", "Pa*s", "mPa*s", "cP"),
@@ -164,8 +170,13 @@ def convert(digits: str, unit: str, dimension: Dimension) -> float:
     if dimension.unit == "K" and unit.strip() == "C":  # what a temperature is written in; a charge elsewhere
         unit = "degC"
     try:
-        found, factor = _unit(unit)
+        if dimension.unit == "Pa" and _VICKERS.fullmatch(unit):
+            found, factor = _unit("Pa")[0], _VICKERS_UNIT
+        else:
+            found, factor = _unit(unit)
     except LookupError:
+        if dimension.unit == "Pa" and _OTHER_HARDNESS.fullmatch(unit):
+            raise dimension._error(f'has the hardness scale "{unit[:40]}": convert to HV first, as "800 HV"') from None
         close = difflib.get_close_matches(unit, _COMMON_UNITS, n=1, cutoff=0.5)
         hint = f' (did you mean "{close[0]}"?)' if close else ""
         raise dimension._error(f'has the unknown unit "{unit[:40]}"{hint}') from None

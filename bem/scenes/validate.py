@@ -122,7 +122,8 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         found, names = context["found"], context["names"]
         meant = CATALOGUE.meant(found)
         hint = f' - did you mean "{meant}"?' if meant in names else nearest(found, names)
-        return f'{key} = "{found}": {mistake["msg"]}{hint}; allowed: {", ".join(names)}'
+        own = "a table of constants, or one of " if "catalogue of materials" in str(mistake["msg"]) else ""
+        return f'{key} = "{found}": {mistake["msg"]}{hint}; allowed: {own}{", ".join(names)}'
     if kind in ("model_type", "model_attributes_type", "dict_type"):
         return f"{where}: not a table; allowed: a table with {', '.join(sorted(fields_of_table(annotation)))}"
     if kind == "quantity":
@@ -135,7 +136,8 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         most, least = context.get("max_length"), context.get("min_length")
         many = f"{least} or more" if most is None else f"{most} or fewer"
         if str(context.get("field_type")) == "Tuple":
-            many = str(least if most is None else most)
+            meaning = _meaning(mistake["loc"], data, model)
+            many = str(least if most is None else most) + (f" ({meaning})" if meaning else "")
         return f"{where}: {context['actual_length']} values; allowed: {many}{allowed.replace('; allowed:', ', each')}"
     if kind == "tuple_type":
         return f"{where}: not a list; allowed: {_listed(annotation)}"

@@ -121,6 +121,10 @@ CASES = {
         (with_(BALL, lower__layer={"material": material("1 GPa", 0.49), "thickness": "20 um"}), "17 times"),
         with_(BALL, lower__layer={"material": material("1 GPa", 0.45), "thickness": "20 um"}),
     ),
+    "layers_without_stresses": (
+        (with_(BALL, lower__layer={"material": "dlc", "thickness": "2 um"}, outputs={"von_mises": True}), "by layer"),
+        with_(BALL, lower__layer={"material": "dlc", "thickness": "2 um"}, outputs={"stresses": True}),
+    ),
     "residual_stress_of_layers": (
         (with_(BALL, lower__layer={"material": "dlc", "thickness": "20 um", "residual_stress": "-2 GPa"}), "-2 GPa in"),
         with_(BALL, lower__layer={"material": "dlc", "thickness": "20 um"}),
@@ -154,7 +158,7 @@ CASES = {
         with_(BALL, contact__load="100 N"),
     ),
     "mean_pressure_near_hardness": (
-        (with_(ROUGH, contact__mean_pressure="4 GPa"), "0.57 of hardness x area"),
+        (with_(ROUGH, contact__mean_pressure="4 GPa"), "0.57 of the pressure cap"),
         with_(ROUGH, contact__mean_pressure="1 GPa"),
     ),
     "grid_smaller_than_hertz": (

@@ -137,7 +137,7 @@ def test_all_mistakes_at_once():
 
 
 def test_capped_without_any_hardness():
-    data = changed(contact__behaviour="capped", lower__material="ptfe", upper={})
+    data = changed(contact__behaviour="capped", lower__material="phosphor-bronze", upper={})
     (found,) = messages(data)
     assert "contact.hardness: missing" in found
 

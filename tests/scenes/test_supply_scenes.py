@@ -156,7 +156,7 @@ def test_a_film_in_time_has_less_oil_after_it_turned():
 @pytest.mark.parametrize(
     ("scene", "changes", "words"),
     [
-        (TRACTION, {"supply": {}}, "none is given; allowed: exactly one of layer, distance"),
+        (TRACTION, {"supply": {}}, "none of layer, distance is given; allowed: exactly one"),
         (TRACTION, {"supply": {"layer": "1 um", "distance": "1 mm"}}, "exactly one of layer, distance"),
         (TRACTION, {"supply": {"layer": "0 nm"}}, "supply.layer"),
         (BALL, {"supply": {"distance": "1 mm"}}, "the meniscus of a point contact is curved and is found"),

@@ -49,8 +49,9 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         tell(context, response.notes(scene, grid))
     tell(context, _on_few_cells(scene, grid, solution.pressure, _cut_off(scene, grid, solution)))
     tell(context, response.notes_apart())
-    if grid.periodic in ((True, False), (False, True)) and solution.approach < 0 and solution.contact_area > 0:
-        tell(context, (LINE_APPROACH(),))
+    line, moves = grid.periodic in ((True, False), (False, True)), scene.speeds is not None
+    if line and (solution.approach < 0 or moves) and solution.contact_area > 0:
+        tell(context, (LINE_APPROACH(reason="steady" if moves else "elastic"),))
     wheel_rail.tell_profiles(scene, grid, solution, context)
     below: StressSummary | None = None
     if scene.wanted_depths():

@@ -61,7 +61,7 @@ def _pressure(run: Any, figure: Figure) -> None:
     axes.set_ylabel(label("mean contact pressure", unit_p))
     axes.set_xlim(0)
     axes.set_ylim(0)
-    axes.legend()
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3)  # above the axes, where it hides no point
 
 
 def _maps(run: Any, figure: Figure, name: str, text: str, unit: str) -> None:

@@ -16,6 +16,7 @@ from bem.numerics.monotone import MonotoneCubic
 from bem.plots.figures import FigureKind
 from bem.plots.style import SKY, along_x, label, prefix
 from bem.scenes.context import release
+from bem.stress.layer_places import highest_point
 
 _DRAWN_DEPTHS = 480
 
@@ -27,7 +28,7 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
     if len(x) < 2:
         stress, x, across = stress.transpose(0, 2, 1), run.dataset["y"].values, "x"
     iz = int(np.argmax(_by_depth(stress)[0]))
-    ix, iy = np.unravel_index(int(np.argmax(stress[iz])), stress[iz].shape)
+    ix, iy = highest_point(stress[iz])
     highest = float(stress[iz, ix, iy])
     stride = max(1, len(x) // 2000)  # far more than a figure has dots
     across_x = x[::stride]

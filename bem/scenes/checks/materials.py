@@ -12,6 +12,8 @@ from bem.notes.checks import (
     FATIGUE_CONSTANTS,
     HARDNESS_UNLIKELY,
     LAYER_INCOMPRESSIBLE,
+    LAYER_STRESSES_OFF,
+    LAYER_THICKNESS_UNUSUAL,
     RESIDUAL_STRESS,
     RESIDUAL_STRESS_UNUSUAL,
     VISCOELASTIC,
@@ -23,6 +25,9 @@ from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import scene_check
 
 _SOFTEST = BY_NAME["Young's modulus"].low
+_LAYER = BY_NAME["thickness of a layer"]
+_THINNER = 5.0
+"""Factor below the usual thickness of a coating down to which it may be a layer of a stack, or worn."""
 _POLYMER = 5e9
 _STEELS = (180e9, 230e9)
 _CONE_SLOPE = math.tan(math.radians(19.7))
@@ -78,6 +83,20 @@ def incompressible_layer(facts: Facts) -> Iterator[Note]:
 
 
 @scene_check
+def layers_without_stresses(facts: Facts) -> Iterator[Note]:
+    """The highest stresses of each layer and interface need all components of the stress."""
+    outputs = getattr(facts.scene, "outputs", None)
+    if not facts.of_kind("contact") or outputs is None or outputs.stresses or not outputs.von_mises:
+        return
+    body = facts.cases[0].bodies.get(outputs.body) if facts.cases else None
+    if body is not None and body.layers:
+        count = len(body.layers)
+        yield LAYER_STRESSES_OFF(
+            "outputs.stresses", body=outputs.body, count=f"{count} layers" if count > 1 else "a layer"
+        )
+
+
+@scene_check
 def residual_stress_of_layers(facts: Facts) -> Iterator[Note]:
     """A uniform biaxial stress in a plane layer is in equilibrium by itself, and linear solutions add: displacement
     and pressure of a contact do not change. Hardness and modulus by indentation do not either, once the area of contact
@@ -85,14 +104,27 @@ def residual_stress_of_layers(facts: Facts) -> Iterator[Note]:
     Eng. Perform. (2017), doi 10.1007/s11665-017-2816-2)."""
     for name, body in (facts.cases[0].bodies if facts.cases else {}).items():
         found = [
-            f"{si(layer.residual_stress, 'Pa')} in layer {number} ({layer.material.name})"
-            for number, layer in enumerate(body.layers, start=1)
+            f"{si(layer.residual_stress, 'Pa')} in layers[{number}] ({layer.material.name})"
+            for number, layer in enumerate(body.layers)
             if layer.residual_stress != 0
         ]
         if found:
-            yield RESIDUAL_STRESS(f"{name}.layers", found=joined(found), body=name)
-        for number, layer in enumerate(body.layers, start=1):
+            reason = "pressure" if facts.of_kind("tribofilm") else "stresses"
+            yield RESIDUAL_STRESS(f"{name}.layers", found=joined(found), body=name, reason=reason)
+        for number, layer in enumerate(body.layers):
             entry = CATALOGUE.get(layer.material.name)
+            thickness = None if entry is None else entry.thickness
+            if thickness is not None and _LAYER.contains(layer.thickness):
+                low, high = thickness
+                if not low / _THINNER <= layer.thickness <= high:
+                    yield LAYER_THICKNESS_UNUSUAL(
+                        f"{name}.layers",
+                        number=number,
+                        material=layer.material.name,
+                        thickness=layer.thickness,
+                        low=low,
+                        high=high,
+                    )
             usual = None if entry is None else entry.residual_stress
             if usual is not None and layer.residual_stress != 0 and not usual[0] <= layer.residual_stress <= usual[1]:
                 yield RESIDUAL_STRESS_UNUSUAL(
