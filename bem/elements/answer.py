@@ -527,7 +527,10 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
         return f"{said}; flash temperature not known: thermal constants of a body are missing"
     hottest = max(hot, key=lambda one: one.flash or 0.0)
     if not hottest.flash:
-        return f"{said}; no flash temperature, as the surfaces roll without sliding"
+        warmest = max((one.surface for one in runs if one.surface is not None), default=math.nan)
+        rise = warmest - (model.film_temperature or math.nan)
+        warmer = f"rolling warms the surfaces by up to {rise:.2g} K" if rise >= 1 else "flash temperature below 1 K"
+        return f"{said}; {warmer}, as the surfaces roll without sliding"
     return (
         f"{said}; highest flash temperature {hottest.flash:.3g} K at {place_words(element, hottest.contact)} "
         "(Blok, with the film's friction)"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,7 +25,6 @@ class Pages:
     names : of the figures, in their order.
     formats : of their files.
     headline : figures that the report begins with.
-    epoch : clock time [s] at which the run would have begun had it not been interrupted.
     """
 
     path: Path
@@ -35,7 +33,6 @@ class Pages:
     names: tuple[str, ...]
     formats: tuple[str, ...]
     headline: tuple[str, ...]
-    epoch: float
 
 
 def make(pages: Pages, arrays: Arrays) -> list[Note]:
@@ -53,10 +50,8 @@ def make(pages: Pages, arrays: Arrays) -> list[Note]:
     run = FinishedRun(pages.path, pages.scene, pages.summary)
     run.__dict__["arrays"] = arrays  # no need to look whether the file is sound
     drawn = draw_all(run, pages.names, figures_folder(pages.path), pages.formats, failure)
-    took = time.time() - pages.epoch
     shown = {
         **pages.summary,
-        "wall_time_s": took,
         "notes": [*pages.summary["notes"], *(note.as_dict() for note in failed)],
     }
     write_report(FinishedRun(pages.path, pages.scene, shown), drawn, pages.headline)

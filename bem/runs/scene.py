@@ -247,12 +247,13 @@ def _write(
     kind = get_kind(scene.kind)
     headline = (*(scene.over or ()), *kind.headline)
     drawn_as = tuple(ending for ending in formats if ending != "vtu")
-    pages = Pages(directory.path, scene_table(scene), summary, kind.figures, drawn_as, headline, computed.epoch)
+    pages = Pages(directory.path, scene_table(scene), summary, kind.figures, drawn_as, headline)
     arrays = Arrays(variables, attributes)
+    summary["wall_time_s"] = time.time() - computed.epoch  # of the numbers, as told; pictures have a stage of their own
     tell = getattr(watcher, "numbers", None)
     if tell is not None:
         with suppress(OSError):  # nobody may be listening any more; the run goes on
-            tell({**summary, "wall_time_s": time.time() - computed.epoch}, headline)
+            tell(summary, headline)
     if outcome.volumes and not outcome.axes and "vtu" in formats:
         with _timed(seconds, "writing results"):
             write_volumes(directory.path, outcome.variables, outcome.volumes)
@@ -263,7 +264,6 @@ def _write(
         for note in missing:
             summary["notes"].append(note.as_dict())
             watcher.note(note)
-    summary["wall_time_s"] = time.time() - computed.epoch
     directory.finish(summary)
     return summary
 

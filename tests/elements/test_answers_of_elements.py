@@ -1,5 +1,6 @@
 """The one-screen answer: rows of every element, pressure in place of load, temperatures of the bodies, the command."""
 
+import dataclasses
 import functools
 import math
 import re
@@ -366,3 +367,13 @@ def test_a_scene_of_mixed_friction_is_of_the_thinnest_film(bem, tmp_path):
     assert "allowed: --scene FILE" in bem("element", "gears.toml", "--kind", "friction").stderr
     assert bem("element", "bearing.toml", "--scene", "rolls.toml", "--kind", "friction").returncode == 0
     assert "slide_roll_ratio = 0.0    # pure rolling" in (tmp_path / "rolls.toml").read_text()
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize(("rise", "words"), [(0.39, "flash temperature below 1 K"), (2.6, "surfaces by up to 2.6 K")])
+def test_surfaces_that_roll_are_as_warm_as_the_figure_shows_them(rise, words):
+    """ "No flash temperature" stood beside surfaces that the figure drew 0.39 K warmer."""
+    found = load_element(STEEL_BEARING)
+    one = run_contact(found, found.worst())
+    run = dataclasses.replace(one, flash=0.0, surface=found.model.oil.temperature + rise)
+    assert f"{words}, as the surfaces roll" in dict(answer(found, [run]))["temperatures"]

@@ -308,20 +308,23 @@ def test_watcher_is_told(tmp_path, counting):
 
 @pytest.mark.internal
 def test_numbers_are_told_before_pictures_are_drawn(tmp_path, monkeypatch):
-    told = []
+    told, times = [], []
     monkeypatch.setattr("bem.plots.pages.draw_all", lambda *_, **__: told.append("pictures") or [])
+    monkeypatch.setattr("bem.plots.pages.write_report", lambda run, *_: times.append(run.summary["wall_time_s"]))
 
     def numbers(summary, headline):
         assert (tmp_path / "results.nc").is_file()
         assert summary["status"] == "converged"
         assert summary["wall_time_s"] > 0
+        times.append(summary["wall_time_s"])
         assert set(headline) & set(summary)
         told.append("numbers")
         raise BrokenPipeError("nobody listens any more")
 
     watcher = SimpleNamespace(progress=lambda *_: None, note=lambda _: None, numbers=numbers)
-    run_scene(SCENE, tmp_path, watcher=watcher, workers=1)
+    run = run_scene(SCENE, tmp_path, watcher=watcher, workers=1)
     assert told == ["numbers", "pictures"]
+    assert times == [run.summary["wall_time_s"]] * 2  # terminal, report and summary tell one time
 
 
 def test_files_are_forced_to_disk_once_and_their_names_folder_by_folder(tmp_path, monkeypatch):

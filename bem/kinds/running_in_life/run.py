@@ -46,7 +46,8 @@ def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
         now = monitors.record(now)
         keep(context, (now, monitors.pieces, monitors.pits))
         done = np.log1p(now.cycles / case.first_step) / np.log1p(case.cycles / case.first_step)
-        context.progress(round(1000 * done), 1000, "cycles", friction=float(now.over("friction")[-1]))
+        figures = {"cycles": float(now.cycles), "friction": float(now.over("friction")[-1])}
+        context.progress(round(100 * done), 100, "per cent of the jumps of cycles", **figures)
         return now
 
     with context.timer("cycles"):
