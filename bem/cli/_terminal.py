@@ -403,7 +403,7 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     """The figures of a run."""
     from bem.notes.accuracy import NO_ERROR_BAR
     from bem.plots.report import NO_BAR, status_words, summary_rows
-    from bem.plots.tables import input_share_tables, is_list
+    from bem.plots.tables import input_share_tables, is_list, place_tables
 
     known = [name for name in headline if summary.get(name) is not None]
     rows = summary_rows(summary, [name for name in known if not is_list(summary[name])])
@@ -420,6 +420,8 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     print_lists(summary, known)
     if summary.get("combined_Sdq") is not None and any(f"{name}_error" in summary for name in known):
         print_text("± is the numerical error; how figures scatter from place to place of the surface is not in it.")
+    for item in place_tables(summary):
+        table(item.head, item.rows, title=item.title, leading=item.leading)
     for item in input_share_tables(summary):
         table(item.head, item.rows, title=item.title, right=range(1, len(item.head)))
 

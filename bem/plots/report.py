@@ -25,12 +25,14 @@ from bem.plots.tables import (
     is_counted,
     is_error,
     is_list,
+    is_place,
     is_rounding,
     is_second_name,
     is_size_of_no_particles,
     limited_by_hardness,
     name_and_unit,
     origin_table,
+    place_tables,
     reported_mean,
     scatters_of,
     shown_values,
@@ -55,6 +57,8 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
     first = [name for name in headline if summary.get(name) is not None]
     rest = [name for name in summary if name not in first and name not in ABOUT_THE_RUN and not is_error(name, summary)]
     rest = [name for name in rest if not is_second_name(name, summary) and not is_counted(name, summary)]
+    places = place_tables(summary)
+    rest = [name for name in rest if not (places and is_place(name))]
     scene_text = (run.path / "scene.toml").read_text("utf-8")
     page = template.render(
         summary=summary,
@@ -67,6 +71,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
         headline=summary_rows(summary, [name for name in first if not is_list(summary[name])]),
         headline_tables=[
             *figure_tables(summary, first),
+            *places,
             *input_share_tables(summary),
             *accuracy_tables(summary),
         ],

@@ -427,6 +427,60 @@ def _percent(share: float) -> str:
     return "0 %" if abs(share) < _LEAST_SHARE else f"{100 * share:.3g} %"
 
 
+_PLACES = (
+    *("layer_max_von_mises", "layer_max_tension", "substrate_max_von_mises"),
+    *("interface_max_shear", "interface_max_tension"),
+)
+"""Figures of coatings that have a place."""
+AT_EDGE = "Depth 0 may be at the edge of the contact, between the cells: stresses are extrapolated to it."
+"""Footnote of places at the surface."""
+
+
+def is_place(name: str) -> bool:
+    """Return True for a coordinate of a highest stress of a coating, which `place_tables` shows."""
+    return any(name == f"{one}_{axis}_m" for one in _PLACES for axis in ("x", "y", "depth"))
+
+
+def place_tables(summary: Mapping[str, Any]) -> list[FigureTable]:
+    """Return the table of the places of the highest stresses of layers, interfaces and the body below: lengths of a
+    column have one unit. None of runs without layers, and of several cases."""
+    layers = summary.get("layer_material")
+    depths = summary.get("interface_depth_m")
+    if not isinstance(layers, list) or not isinstance(depths, list) or len(depths) != len(layers):
+        return []
+    found: list[tuple[str, str, list[float | None]]] = []
+    for name in _PLACES:
+        if name == "substrate_max_von_mises":
+            where = ["below the layers"]
+        elif name.startswith("layer"):
+            where = [str(layer) for layer in layers]
+        else:
+            where = [f"below {layer}" for layer in layers]
+        axes = [summary.get(f"{name}_{axis}_m") for axis in ("x", "y", "depth")]
+        if axes[0] is None:
+            continue
+        axes[2] = axes[2] if axes[2] is not None else depths
+        columns = [axis if isinstance(axis, list) else [axis] for axis in axes]
+        if any(len(column) != len(where) for column in columns):
+            return []
+        words = name_and_unit(f"{name}_Pa")[0].removeprefix("layer ").removeprefix("interface ")
+        words = words.removeprefix("substrate ")
+        found += [(words, place, list(row)) for place, row in zip(where, zip(*columns, strict=True), strict=True)]
+    if not found:
+        return []
+    shown: list[list[str]] = []
+    heads = []
+    for axis, number in (("x", 0), ("y", 1), ("depth", 2)):
+        values = [row[2][number] for row in found]
+        factor, unit = prefix([value for value in values if value is not None], "m")
+        heads.append(f"{axis} ({unit})")
+        shown.append([_cell(value, factor) for value in values])
+    rows = tuple((words, place, *cells) for (words, place, _), *cells in zip(found, *shown, strict=True))
+    at_edge = any(row[2][2] == 0 for row in found)
+    title = "Places of the highest stresses" + (f". {AT_EDGE}" if at_edge else "")
+    return [FigureTable(title, ("stress", "in", *heads), rows, 2)]
+
+
 def accuracy_tables(summary: Mapping[str, Any]) -> list[FigureTable]:
     """Tables of the refinement to a requested accuracy: levels of each case, their relative errors and seconds."""
     cases = summary.get("accuracy", {}).get("cases", ())

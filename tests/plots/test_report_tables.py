@@ -8,7 +8,15 @@ import pytest
 from bem.cli._terminal import print_numbers
 from bem.notes.checks import NOT_SETTLED
 from bem.plots.report import spelled, status_words, summary_rows, with_error, write_report
-from bem.plots.tables import figure_tables, name_and_unit, origin_table, summary_of_points
+from bem.plots.tables import (
+    AT_EDGE,
+    figure_tables,
+    is_place,
+    name_and_unit,
+    origin_table,
+    place_tables,
+    summary_of_points,
+)
 from bem.scenes import get_kind
 from bem.scenes.records import UNITS, figures
 
@@ -36,6 +44,33 @@ def test_a_row_for_each_speed_with_spread_and_unit():
     assert table.rows[0] == ("0.01", "0.1 ± 0.01", "1", "10")
     assert table.rows[1] == ("0.1", "0.05", "2", "2")  # a spread of round-off is none
     assert table.rows[2][2] == "–"
+
+
+def test_places_of_the_highest_stresses_of_layers_have_one_unit_a_column():
+    """Half a cell is not 781.2 nm beside lengths in micrometres; depth 0 may be at the edge of the contact."""
+    summary = {
+        "layer_material": ["CrN", "Cr"],
+        "interface_depth_m": [3e-6, 3.3e-6],
+        "layer_max_tension_x_m": [-99.99e-6, -1.06e-4],
+        "layer_max_tension_y_m": [781.2e-9, None],
+        "layer_max_tension_depth_m": [0.0, 3.0003e-6],
+        "interface_max_shear_x_m": [8.75e-6, 11.25e-6],
+        "interface_max_shear_y_m": [781.2e-9, 1.172e-5],
+    }
+    (table,) = place_tables(summary)
+    assert table.head == ("stress", "in", "x (µm)", "y (µm)", "depth (µm)")
+    assert table.rows == (
+        ("max tension", "CrN", "-99.99", "0.7812", "0"),
+        ("max tension", "Cr", "-106", "–", "3"),
+        ("max shear", "below CrN", "8.75", "0.7812", "3"),
+        ("max shear", "below Cr", "11.25", "11.72", "3.3"),
+    )
+    assert AT_EDGE in table.title
+    assert all(is_place(name) for name in summary if name.endswith(("_x_m", "_y_m", "max_tension_depth_m")))
+    assert not is_place("interface_depth_m")
+    deep = summary | {"layer_max_tension_depth_m": [1e-6, 3.0003e-6]}
+    assert AT_EDGE not in place_tables(deep)[0].title
+    assert place_tables({"layer_material": ["CrN"]}) == []
 
 
 def test_friction_has_its_scatter_from_the_oil_behind_its_error():
