@@ -33,6 +33,7 @@ from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.running import Running, columns, run_all
 from bem.elements.running import notes as film_notes
+from bem.errors import InputError
 from bem.notes import Note
 from bem.notes.elements import BUSH_CONFORMS, BUSH_FLOATS, BUSH_LEAKS
 from bem.notes.note import has_code, percent, without
@@ -45,8 +46,9 @@ PLACES = 11
 """Films that are solved for an answer on one screen, beside marked and extreme contacts; `--running` solves all."""
 _LEAST_SCATTER = 0.005
 """Scatter of the friction power, over it, below which it is left out."""
-_BALANCE_ROUNDS, _BALANCE_STEP = 8, 0.2
-"""Rounds of a heat balance at most, and the change of temperature [K] at which it is found."""
+_BALANCE_ROUNDS, _BALANCE_STEP, _HALVINGS = 20, 0.2, 6
+"""Rounds of a heat balance at most, the difference of temperature [K] at which it is found, and how often a step is
+halved that leaves the temperatures of the oil."""
 
 
 @dataclass(frozen=True)
@@ -217,15 +219,43 @@ class _NoFilm(Exception):
 
 
 def _balanced(excess: Callable[[float], float], around: float) -> float:
-    """Return the temperature [K] at which an excess over it [K] vanishes, by secants from that of the surroundings."""
+    """Return the temperature [K] at which an excess over it [K] vanishes, by secants from that of the surroundings.
+
+    Raises
+    ------
+    InputError : no such temperature is found.
+    """
     low, error = around, excess(around)
     high = low + error
     for _ in range(_BALANCE_ROUNDS):
         if abs(error) < _BALANCE_STEP:
+            return high
+        high, now = _within_oil(excess, low, high)
+        if now == error:
             break
-        now = excess(high)
         low, high, error = high, high - now * (high - low) / (now - error), now
-    return high
+    if abs(error) < _BALANCE_STEP:
+        return high
+    raise InputError(
+        "heat_balance: no temperature is found at which friction power equals conductance times rise; the last one, "
+        f"{low - ZERO_CELSIUS:.0f} degC, misses by {abs(error):.2g} K; allowed: another conductance, or "
+        "bulk_temperature"
+    )
+
+
+def _within_oil(excess: Callable[[float], float], low: float, high: float) -> tuple[float, float]:
+    """Return a temperature and its excess [K]: `high`, or halfway to `low` as often as the oil is not defined there.
+
+    Raises
+    ------
+    InputError : that of the oil near `low`.
+    """
+    for _ in range(_HALVINGS):
+        try:
+            return high, excess(high)
+        except InputError:
+            high = 0.5 * (low + high)
+    return high, excess(high)
 
 
 def answer(element: Element, solved: Sequence[Running]) -> Rows:

@@ -10,7 +10,7 @@ import pytest
 from command_line import run_command
 
 from bem import InputError
-from bem.elements.answer import PLACES, answer, balance_heat, friction_power, likely_power
+from bem.elements.answer import PLACES, _balanced, answer, balance_heat, friction_power, likely_power
 from bem.elements.bearing_life import bearing_life, life_notes, life_of_film, life_rows
 from bem.elements.element import MODELS, element_template, load_element
 from bem.elements.gear_scuffing import (
@@ -193,6 +193,20 @@ def test_the_heat_balance_balances():
     assert hot.model.bulk_temperature > 348
     plain = load_element(STEEL_BEARING)
     assert balance_heat(plain) is plain
+
+
+def test_a_heat_balance_far_from_the_surroundings_is_found():
+    """The first step of the secants leaves the temperatures of the oil: 40 W at 20 degC over 0.1 W/K."""
+    hot = _balanced(_cooled, 293.15)
+    assert 0.1 * (hot - 293.15) == pytest.approx(40 * math.exp(-0.03 * (hot - 293.15)), abs=0.02)
+    with pytest.raises(InputError, match="no temperature is found"):
+        _balanced(lambda at: 1.0, 293.15)
+
+
+def _cooled(temperature):
+    if temperature > 573:
+        raise InputError("oils crack")
+    return 293.15 + 40 * math.exp(-0.03 * (temperature - 293.15)) / 0.1 - temperature
 
 
 def test_with_an_ambient_the_oil_is_as_warm_as_the_bodies():

@@ -205,5 +205,5 @@ def test_films_without_heat_and_below_the_roughness_are_said():
     warm = ring()
     assert not any(text.code == "element-without-heat" for text in warm.notes())
     (thin,) = [note for note in ring(speed="1 rpm").notes() if note.code == "element-surfaces-touch"]
-    assert thin.values["where"] == " at 12 of 12 places"
+    assert (thin.values["touching"], thin.values["places"]) == (12, 12)
     assert not any(text.code == "element-surfaces-touch" for text in warm.notes())
