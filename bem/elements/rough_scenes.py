@@ -15,10 +15,13 @@ from typing import TYPE_CHECKING, Any
 
 from bem.elements.contact import ElementContact
 from bem.errors import InputError
+from bem.grid import Grid
 from bem.materials import Body, softer_hardness
 from bem.physical_constants import ROOM_TEMPERATURE
 from bem.quantities import si
+from bem.scenes.wearing import cycles_of_a_turn
 from bem.surfaces.processes import PROCESSES, ProcessName
+from bem.wear.criterion.local import cell_to_cell_compliance
 
 if TYPE_CHECKING:
     from bem.elements.model import ElementModel
@@ -50,7 +53,14 @@ _CELLS_PER_CORRELATION_LENGTH, _LENGTHS_ACROSS, _RUBBED_CELLS, _MOST_CELLS = 3.2
 across it, four to each; most cells along the sliding."""
 _CREEP = 1e-3
 """Speed of a bush at rest over the shaft's in scenes of surface temperature."""
-_CYCLES = {"count": 50, "averaged": 10, "settled": 20}
+_SHIFT, _TURN = 3, 64
+"""Cells by which the moving roughness is displaced in a cycle of running-in, as without the key `wear.shift`, and most
+cycles in which it is where it was."""
+_RUNNING_IN_RATE, _STABLE_STEP = 1e-16, 0.25
+"""Wear rate of running-in without one of the element [m^2/N], and compliance by wear of a cycle over that from cell to
+cell, as in scenes of own surfaces."""
+_SHORTEST_AVERAGE, _CELLS_PER_AVERAGE = 300e-9, 3
+"""Averaging length of the particle criterion where cells are small enough [m], else cells to it."""
 ASSUMED_SLIDING, ASSUMED_WEAR_RATE, ASSUMED_CYCLES = 0.02, 2e-17, 1_000_000
 """Slide-to-roll ratio of running-in and lives in place of pure rolling (rolling bearings slip by 1 to 3 %). Wear rate
 of lives without one of the element [m^2/N], as in the template of running-in-life, and their cycles."""
@@ -219,11 +229,40 @@ def mixed_scene(
         if hardness_of(model) is None:
             sharing["models"] = ["elastic"]
         return made | {"sharing": sharing}, assumed
-    cycles = {
-        "depths": {"count": _DEPTHS, "spacing": patch.coarser_spacing / _CELLS_PER_DEPTH},
-        "cycles": dict(_CYCLES),
+    made |= {"sharing": sharing}
+    if kind == "running-in":
+        if not model.specific_wear_rate:
+            assumed.append("the wear rate is assumed")
+        return made | _running_in(model, patch), assumed
+    return made, assumed
+
+
+def _running_in(model: ElementModel, patch: Patch) -> dict[str, Any]:
+    """Return the keys of running-in: Archard's wear, which smooths summits, with the particles of a criterion.
+
+    A cycle wears as much as keeps the step stable, half the compliance by which the bodies give way from cell to cell;
+    the run has two turns of the moving roughness, and means over one.
+    """
+    rate = model.specific_wear_rate or _RUNNING_IN_RATE
+    cell = (patch.lengths[0] / patch.shape[0], patch.lengths[1] / patch.shape[1])
+    bodies = Body(model.first.build()), Body(model.second.build())
+    distance = _STABLE_STEP * cell_to_cell_compliance(Grid((32, 32), cell), bodies) / rate
+    shift = max(_SHIFT, round(patch.shape[0] / _TURN))
+    turn = cycles_of_a_turn(patch.shape, shift)
+    averaged = max(_SHORTEST_AVERAGE, _CELLS_PER_AVERAGE * min(cell))
+    return {
+        "wear": {
+            "criterion": {
+                "kind": "archard",
+                "specific_wear_rate": f"{1e9 * rate:.6g} mm^3/(N*m)",
+                "distance": float(f"{distance:.1g}"),
+            },
+            "particle_criterion": {"kind": "averaged_von_mises", "averaging_length": averaged},
+            **({} if shift == _SHIFT else {"shift": shift}),
+        },
+        "depths": {"count": _DEPTHS, "spacing": min(cell) / _CELLS_PER_DEPTH},
+        "cycles": {"count": 2 * turn, "averaged": turn, "settled": turn},
     }
-    return made | {"sharing": sharing} | (cycles if kind == "running-in" else {}), assumed
 
 
 def life_scene(

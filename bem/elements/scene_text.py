@@ -20,7 +20,19 @@ _UNITS = {
     **dict.fromkeys(("values", "mean_speed", "lower_speed", "upper_speed"), "m/s"),
     **dict.fromkeys(("roughness", "rms_height", "correlation_length", "rolloff_wavelength", "cutoff_wavelength"), "m"),
     **dict.fromkeys(
-        ("thickness", "radius", "radius_y", "radii", "width", "distance", "lengths", "spacing", *"ABCDE"), "m"
+        (
+            "thickness",
+            "averaging_length",
+            "radius",
+            "radius_y",
+            "radii",
+            "width",
+            "distance",
+            "lengths",
+            "spacing",
+            *"ABCDE",
+        ),
+        "m",
     ),
 }
 """SI units of the keys that `Element.scene` and `Element.path_scene` fill with numbers."""

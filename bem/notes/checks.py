@@ -480,14 +480,15 @@ FRICTION_SWINGS = define(
     "Friction swings with the place of the moving roughness.",
     reasons={
         "turns": Reason(
-            "Mean friction is {first:.4g} over the first whole turn of {turn} cycles and {last:.4g} over the last one;"
+            "Mean friction is {first:.4g} over the first whole turn of the moving body's roughness, {turn} cycles, and"
+            " {last:.4g} over the last one;"
             " friction_initial = {initial:.4g} is that of the first cycle, friction_run_in = {run_in:.4g} the mean of"
             " the last {averaged}{of}.",
             "Compare the means over whole turns, after which the same roughness meets again.",
         ),
         "short": Reason(
-            "The same roughness returns every {turn} cycles, and the run has {cycles}: the place changes friction as"
-            " wear does.",
+            "The roughness of the moving body meets the same roughness again every {turn} cycles, one turn, and the run"
+            " has {cycles}: its place changes friction as wear does.",
             "Set cycles.count = {count} (two turns) or more, and cycles.averaged = {turn} (one turn).",
         ),
     },

@@ -10,6 +10,7 @@ from bem.elements.element import KINDS, LIFE, MIXED, MODELS, element_template, l
 from bem.elements.model import BOUNDARY_FRICTION
 from bem.elements.rough_scenes import FINISHES, finish_lengths, patch_over
 from bem.elements.scene_text import scene_text
+from bem.grid import Grid
 from bem.scenes import get_kind
 
 ROUGH = (*MIXED, LIFE, "surface-temperature")
@@ -202,3 +203,25 @@ def test_a_whole_path_is_of_kind_traction_alone(tmp_path):
     assert "traction" in str(done.exception)
     assert CliRunner().invoke(build(), [*words, "--at", "20"]).exit_code == 0
     assert load_scene(tmp_path / "s.toml").kind == "friction"
+
+
+@pytest.mark.parametrize("name", ["gear-pair", "cam-follower", "rolling-bearing"])
+def test_running_in_wears_summits_over_two_turns_in_stable_steps(name):
+    """Archard's law with a step that is stable on the cells, particles of a criterion, and two turns of the roughness.
+
+    Pieces alone, as without a law of volume, left the worn surface of gears rougher than the new one.
+    """
+    from bem.wear.criterion.local import cell_to_cell_compliance
+
+    element = element_of(name, specific_wear_rate="1e-8 mm^3/(N*m)")
+    made = element.scene(element.thinnest_steady(), "running-in")
+    scene, shape = load_scene(made), made["grid"]["shape"]
+    cell = tuple(length / cells for length, cells in zip(made["grid"]["lengths"], shape, strict=True))
+    criterion = scene.wear.criterion
+    assert (criterion.name, scene.wear.particle_criterion.name) == ("archard", "averaged_von_mises")
+    assert criterion.specific_wear_rate == pytest.approx(1e-17)
+    compliance = cell_to_cell_compliance(Grid((32, 32), cell), (scene.lower.build(), scene.upper.build()))
+    assert criterion.specific_wear_rate * criterion.distance < 0.5 * compliance
+    turn = round(shape[0] / abs(scene.wear.shift))
+    assert 60 <= turn < 96
+    assert (scene.cycles.count, scene.cycles.averaged) == (2 * turn, turn)

@@ -151,7 +151,8 @@ def test_written_scenes_have_units_and_six_digits(element, kind):
         return
     table = element.scene(place, kind)
     text = scene_text(table)
-    bare = {"slide_roll_ratio", "boundary_friction", "friction", "hurst", "shape", "count", "averaged", "settled"}
+    bare = {"slide_roll_ratio", "boundary_friction", "friction", "shape", "count", "averaged", "settled", "shift"}
+    bare |= {"skewness", "kurtosis"}
     numbers = {name for name, _ in re.findall(r"\b(\w+) = (\[?-?\d)", text)}
     assert numbers <= bare
     written, own = (scene_table(scene_from_table(one)) for one in (tomllib.loads(text), table))
