@@ -223,5 +223,5 @@ def test_running_in_wears_summits_over_two_turns_in_stable_steps(name):
     compliance = cell_to_cell_compliance(Grid((32, 32), cell), (scene.lower.build(), scene.upper.build()))
     assert criterion.specific_wear_rate * criterion.distance < 0.5 * compliance
     turn = round(shape[0] / abs(scene.wear.shift))
-    assert 60 <= turn < 96
+    assert 32 <= turn < 96
     assert (scene.cycles.count, scene.cycles.averaged) == (2 * turn, turn)
