@@ -75,8 +75,16 @@ _ALONG = ContextVar("along x", default="x, sliding")
 
 
 def start_at_zero(axes: Axes) -> None:
-    """Begin the vertical axis at zero, with a margin above the highest curve also where the curves are nearly flat."""
-    top = 1.06 * float(axes.dataLim.y1)
+    """Begin the vertical axis at zero, with a margin above the highest curve also where the curves are nearly flat.
+
+    Curves that fall below zero are shown whole, with a margin below them.
+    """
+    low, high = float(axes.dataLim.y0), float(axes.dataLim.y1)
+    if -float("inf") < low < 0 < high < float("inf"):
+        margin = 0.06 * (high - low)
+        axes.set_ylim(low - margin, high + margin)
+        return
+    top = 1.06 * high
     axes.set_ylim(0, top if 0 < top < float("inf") else None)
 
 

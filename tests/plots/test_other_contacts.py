@@ -21,6 +21,7 @@ from bem.plots import draw as drawing
 from bem.plots.cases import along
 from bem.plots.figures import all_figures
 from bem.plots.report import with_error
+from bem.plots.style import start_at_zero
 from bem.plots.sweep import fill
 from bem.plots.tables import figure_tables
 from bem.scenes.context import Variable
@@ -427,3 +428,30 @@ def test_a_section_under_a_ball_runs_through_its_middle(contact, touching):
     (upper, _) = drawn(kind.draw, run).axes
     (spots,) = (line for line in upper.lines if line.get_label() == "in contact")
     assert spots.get_xdata().size == touching
+
+
+def test_curves_below_zero_are_shown_whole():
+    """Friction of rolling surfaces is that of the film on one of them, which may push; its curve was cut at zero."""
+    axes = Figure().add_subplot()
+    axes.plot([0.0, 1.0, 2.0], [-1e-4, 0.0, 3e-4])
+    start_at_zero(axes)
+    low, high = axes.get_ylim()
+    assert low < -1e-4
+    assert high > 3e-4
+    other = Figure().add_subplot()
+    other.plot([0.0, 1.0], [1e-4, 3e-4])
+    start_at_zero(other)
+    assert other.get_ylim()[0] == 0
+
+
+def test_the_legend_of_a_life_is_above_its_curves():
+    """It lay in a corner in which curves end."""
+    cycle = np.geomspace(1.0, 1e5, 5)
+    names = ("friction_over_cycles", "boundary_friction_over_cycles", "contact_share")
+    run = run_of(cycle=cycle, **{name: ("cycle", np.linspace(0.05, 0.01, 5)) for name in names})
+    (kind,) = (each for each in running_in_life.FIGURES if each.name == "friction-over-life")
+    figure = Figure(layout="constrained")
+    kind.draw(run, figure)
+    figure.draw_without_rendering()
+    axes = figure.axes[0]
+    assert axes.get_legend().get_window_extent().y0 >= axes.get_window_extent().y1

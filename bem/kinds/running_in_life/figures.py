@@ -34,7 +34,13 @@ def _friction(run: Any, figure: Figure) -> None:
     other.plot(cycle, data["contact_share"].values, ":", color=VERMILION, label="asperity load share")
     other.set_ylabel("asperity load share", color=VERMILION)
     other.set_ylim(0, 1.06)  # a share of one is a line below the edge
-    axes.legend(handles=[*axes.lines, *other.lines], loc="lower left")
+    _legend_above(axes, other)
+
+
+def _legend_above(axes: Axes, other: Axes) -> None:
+    """Put one legend of both axes above them, where no curve runs."""
+    lines = [*axes.lines, *other.lines]
+    axes.legend(handles=lines, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(lines), fontsize=8)
 
 
 def _wear(run: Any, figure: Figure) -> None:
@@ -68,7 +74,7 @@ def _film(run: Any, figure: Figure) -> None:
     other.plot(cycle, data["lambda_over_cycles"].values, "--", color=VERMILION, label="lambda ratio")
     other.set_ylabel("lambda ratio,\nunder the whole load", color=VERMILION)
     start_at_zero(other)
-    axes.legend(handles=[*axes.lines, *other.lines], loc="center left")
+    _legend_above(axes, other)
 
 
 def _jumps(run: Any, figure: Figure) -> None:

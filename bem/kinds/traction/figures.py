@@ -70,8 +70,9 @@ def _temperatures(run: Any, figure: Figure) -> None:
         axes.plot(x, oil[0] - ZERO_CELSIUS, color=colour, label=f"oil, {case}" if case else "oil")
         for name, dash in (("lower", "--"), ("upper", ":")):
             axes.plot(x, surfaces[name][case][0] - ZERO_CELSIUS, color=colour, linestyle=dash)
-    axes.plot([], [], "--", color=BLACK, label=_surface(run, "lower"))
-    axes.plot([], [], ":", color=BLACK, label=_surface(run, "upper"))
+    common = COLOURS[0] if len(shown) == 1 else BLACK  # dashes of every colour
+    axes.plot([], [], "--", color=common, label=_surface(run, "lower"))
+    axes.plot([], [], ":", color=common, label=_surface(run, "upper"))
     axes.set_xlabel("x over the Hertz half-width")
     axes.set_ylabel("temperature (°C)")
     axes.legend()
