@@ -91,6 +91,10 @@ class CaseContext:
             self.notes.append(note)
             self._watcher.note(note)
 
+    def message(self, text: str) -> None:
+        """Tell the watcher how the work goes; no note on the results."""
+        self._watcher.note(text)
+
     @contextmanager
     def timer(self, stage: str) -> Iterator[None]:
         """See `bem.scenes.Context`."""

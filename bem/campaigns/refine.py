@@ -12,7 +12,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -27,7 +27,7 @@ from bem.scenes.asked import ALL, ANY, figures_of_chance, relative_error, shortf
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Context
 from bem.scenes.kind import Kind
-from bem.scenes.planner import Plan, available_memory, show_bytes
+from bem.scenes.planner import Plan, available_memory, show_bytes, show_seconds, step_seconds
 from bem.scenes.records import Figure, Record, described
 from bem.scenes.resolutions import Resolution
 
@@ -89,8 +89,36 @@ def solve_case(kind: Kind, scene: SceneModel, context: Context) -> Record:
             own.tell()
             return _unmet(record, scene, [*levels, level], ratios, why)
         levels.append(dataclasses.replace(level, refined=refined))
-        scene, inner, coarser = _finer(kind, scene, refined), None, own.kept
+        before, scene, inner, coarser = scene, _finer(kind, scene, refined), None, own.kept
+        message: Callable[[str], None] | None = getattr(context, "message", None)
+        if message is not None:
+            message(forecast(kind, before, scene, levels))
         context.save(_state(levels, None, coarser, 0.0))
+
+
+def forecast(kind: Kind, before: SceneModel, scene: SceneModel, levels: Sequence[Level]) -> str:
+    """Return the text on a level that is about to run: its resolution, its time, and how many levels are expected.
+
+    The time is that of the level before, times the ratio of the plans' estimates. The error falls as between the last
+    two levels; after the first level by half, as of first order.
+
+    before, scene : the level before and the one to come. levels : those that are over.
+    """
+    last = levels[-1]
+    seconds = [math.fsum(step_seconds(step, _RATE) for step in kind.plan(one).steps) for one in (before, scene)]
+    spent = last.seconds * seconds[1] / seconds[0] if seconds[0] > 0 else math.nan
+    takes = f", about {show_seconds(spent)}" if math.isfinite(spent) else ""
+    falls = 0.5 if len(levels) < 2 else last.worst / levels[-2].worst
+    more = math.ceil(math.log(last.worst) / -math.log(falls)) if 0 < falls < 1 and math.isfinite(last.worst) else 0
+    expected = f" of about {len(levels) + max(more, 1)}" if more else ""
+    error = (
+        f"the error is {last.worst:.2g} times the one asked for" if math.isfinite(last.worst) else "no error bar yet"
+    )
+    return f"level {len(levels)}: {error}; level {len(levels) + 1}{expected}: {shown(kind, scene)}{takes}"
+
+
+_RATE = 2e9
+"""Transforms [flop/s] of an ordinary core; only the ratio of two estimates counts."""
 
 
 def expected_levels(kind: Kind, scene: SceneModel) -> list[SceneModel]:

@@ -472,7 +472,9 @@ def place_tables(summary: Mapping[str, Any]) -> list[FigureTable]:
     heads = []
     for axis, number in (("x", 0), ("y", 1), ("depth", 2)):
         values = [row[2][number] for row in found]
-        factor, unit = prefix([value for value in values if value is not None], "m")
+        together = (0, 1) if number < 2 else (2,)  # x and y have one unit, depths their own
+        known = [row[2][one] for row in found for one in together if row[2][one] is not None]
+        factor, unit = prefix(known, "m")
         heads.append(f"{axis} ({unit})")
         shown.append([_cell(value, factor) for value in values])
     rows = tuple((words, place, *cells) for (words, place, _), *cells in zip(found, *shown, strict=True))

@@ -28,7 +28,7 @@ from bem.scenes.build import grid_of
 from bem.scenes.common import SceneModel
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import Kind, get_kind
-from bem.scenes.planner import Plan
+from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, described
 from bem.scenes.resolutions import Resolution
 from bem.surfaces import Surface, write_surface
@@ -472,6 +472,25 @@ def test_what_has_no_part_in_the_error_is_not_refined():
     ]  # fmt: skip
     assert found.status == "converged"
     assert context.notes == ["16 cells"]  # those of coarser levels are nobody's business
+
+
+@pytest.mark.internal
+def test_a_level_to_come_is_told_with_its_time_and_the_levels_expected():
+    """Four times the work takes four times as long; an error of 12 times the one asked for needs four levels that
+    halve it."""
+    kind = dataclasses.replace(
+        coils(order=1), plan=lambda scene: Plan((Step("coils", "", per="case", seconds=scene.cells**2 / 16),))
+    )
+    before, scene = CoilScene(cells=8), CoilScene(cells=16)
+    one = refine.Level("4 cells", {}, 12.0, 1.0)
+    two = refine.Level("8 cells", {}, 6.0, 5.0)
+    assert refine.forecast(kind, CoilScene(cells=4), before, [one]) == (
+        "level 1: the error is 12 times the one asked for; level 2 of about 5: 8 cells, 4 steps, about 4.0 s"
+    )
+    told = refine.forecast(kind, before, scene, [one, two])
+    assert told.endswith("level 3 of about 5: 16 cells, 4 steps, about 20.0 s")
+    unknown = refine.Level("8 cells", {}, math.inf, 5.0)
+    assert "no error bar yet; level 2: " in refine.forecast(kind, before, scene, [unknown])
 
 
 @pytest.mark.internal
