@@ -480,8 +480,8 @@ FRICTION_SWINGS = define(
     "Friction swings with the place of the moving roughness.",
     reasons={
         "turns": Reason(
-            "Mean friction is {first:.4g} over the first whole turn of the moving body's roughness, {turn} cycles, and"
-            " {last:.4g} over the last one;"
+            "Mean friction is {first:.4g} over the first whole turn of {turn} cycles and {last:.4g} over the last one,"
+            " a turn until the roughness of the moving body is where it was;"
             " friction_initial = {initial:.4g} is that of the first cycle, friction_run_in = {run_in:.4g} the mean of"
             " the last {averaged}{of}.",
             "Compare the means over whole turns, after which the same roughness meets again.",
