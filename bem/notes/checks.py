@@ -329,14 +329,6 @@ RESIDUAL_STRESS = define(
         ),
     },
 )
-LAYER_STRESSES_OFF = define(
-    "layer-stresses-off",
-    INFO,
-    "Stresses by layer and interface are not among the results.",
-    "The {body} body has {count}; outputs.stresses = false leaves their highest stresses, tension and yield "
-    "ratios out.",
-    "Set outputs.stresses = true.",
-)
 LAYER_THICKNESS_UNUSUAL = define(
     "layer-thickness-unusual",
     CAUTION,

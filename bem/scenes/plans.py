@@ -168,7 +168,8 @@ def contacts(
 def stresses(grid: Grid, body: Body | None, name: str, depths: int, *, fields: int, loads: int) -> Step:
     """Stresses below one contact at so many depths in the lower or upper body.
 
-    fields : kept at each depth: 1 is von Mises alone. loads : 1, or 2 with traction.
+    fields : at each depth: 1 is von Mises alone, 7 with the components, which are one array.
+    loads : 1, or 2 with traction.
     """
     points = padded_points(grid.shape, grid.periodic)
     periodic = all(grid.periodic)
@@ -176,9 +177,10 @@ def stresses(grid: Grid, body: Body | None, name: str, depths: int, *, fields: i
     spectra = min(2.0**29, depths * loads * 6 * 8 * points * (0.5 if periodic else 0.25))
     coated = body is not None and not body.homogeneous
     volume = 8.0 * grid.cells * depths
-    on_disk = volume >= LARGE
+    components = fields - 1
+    on_disk = (volume >= LARGE) + components * (components * volume >= LARGE)
     held = volume * (fields - on_disk)
-    where = f"; {show_bytes(volume)} of them on disk, not in memory" if on_disk else ""
+    where = f"; {show_bytes(on_disk * volume)} of them on disk, not in memory" if on_disk else ""
     return Step(
         "stresses below",
         f"{depths} depths in the {name} body{where}" if depths else "neither stresses nor von Mises are asked for",

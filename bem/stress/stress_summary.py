@@ -101,6 +101,7 @@ def summarise_stress(
     traction: FloatArray | None = None,
     components: bool = False,
     out: FloatArray | None = None,
+    components_out: FloatArray | None = None,
     after: Callable[[int], None] | None = None,
 ) -> StressSummary:
     """Compute von Mises stress at depths, on request the six components, and summarise them.
@@ -114,12 +115,13 @@ def summarise_stress(
     traction : (2, nx, ny) [Pa], instead of friction x pressure.
     components : True to compute the six components too.
     out : (nz, nx, ny) for von Mises stress; a new array if None.
+    components_out : (6, nz, nx, ny) for the components; a new array if None.
     after : called after each plane with the number of computed planes.
     """
     places = np.asarray(depths, dtype=np.float64)
     field = np.empty((len(places), *grid.shape)) if out is None else out
     asked: dict[str, Any] = {"friction": friction, "traction": traction}
-    stress = subsurface_stress(pressure, grid, body, places, **asked) if components else None
+    stress = subsurface_stress(pressure, grid, body, places, **asked, out=components_out) if components else None
     limits = yield_stresses(body, places)
     highest, yielded, counted = np.empty((3, len(places)))
     planes: Iterator[FloatArray]

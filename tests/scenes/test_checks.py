@@ -121,10 +121,6 @@ CASES = {
         (with_(BALL, lower__layer={"material": material("1 GPa", 0.49), "thickness": "20 um"}), "17 times"),
         with_(BALL, lower__layer={"material": material("1 GPa", 0.45), "thickness": "20 um"}),
     ),
-    "layers_without_stresses": (
-        (with_(BALL, lower__layer={"material": "dlc", "thickness": "2 um"}, outputs={"von_mises": True}), "by layer"),
-        with_(BALL, lower__layer={"material": "dlc", "thickness": "2 um"}, outputs={"stresses": True}),
-    ),
     "residual_stress_of_layers": (
         (with_(BALL, lower__layer={"material": "dlc", "thickness": "20 um", "residual_stress": "-2 GPa"}), "-2 GPa in"),
         with_(BALL, lower__layer={"material": "dlc", "thickness": "20 um"}),

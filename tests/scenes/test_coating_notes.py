@@ -1,4 +1,4 @@
-"""What scenes of coated bodies say: thickness, residual stress, stresses by layer, hardness in HV, keys and sources."""
+"""What scenes of coated bodies say: thickness, residual stress, hardness in HV, keys and sources."""
 
 import pytest
 from pydantic import TypeAdapter, ValidationError
@@ -6,7 +6,7 @@ from pydantic import TypeAdapter, ValidationError
 from bem import InputError, load_scene, plan_scene
 from bem.campaigns.cited import catalogue_sources
 from bem.notes import has_code
-from bem.notes.checks import LAYER_STRESSES_OFF, LAYER_THICKNESS_UNUSUAL, RESIDUAL_STRESS, TRIBOFILM_ON_COATING
+from bem.notes.checks import LAYER_THICKNESS_UNUSUAL, RESIDUAL_STRESS, TRIBOFILM_ON_COATING
 from bem.plots.tables import input_share_tables
 from bem.scenes.checks import examine, scene_warnings
 from bem.scenes.common import PositivePressure
@@ -29,13 +29,6 @@ def stack(thickness="3 um", *settings):
 )
 def test_a_thickness_outside_the_catalogues_range_is_a_caution(thickness, unusual):
     assert has_code(stack(thickness), LAYER_THICKNESS_UNUSUAL) is unusual
-
-
-def test_layers_without_all_stresses_say_how_to_get_them():
-    off = 'outputs={"von_mises"=true,"stresses"=false}'
-    assert has_code(stack("3 um", off), LAYER_STRESSES_OFF)
-    assert not has_code(stack("3 um", 'outputs={"stresses"=true}'), LAYER_STRESSES_OFF)
-    assert not has_code(notes("coated-sphere", "lower.layer=", off), LAYER_STRESSES_OFF)
 
 
 def test_a_residual_stress_under_a_tribofilm_speaks_of_no_stresses_of_that_kind():

@@ -170,6 +170,23 @@ def test_von_mises_alone_is_the_same_as_from_all_stresses():
 
 
 @pytest.mark.internal
+def test_von_mises_of_a_coated_body_gives_figures_of_layers_and_interfaces():
+    """The same as with all stresses, with their places and bars, but the stress field is not in the results."""
+    layers = 'lower.layers=[{material="dlc",thickness="1 um"},{material="tungsten-carbide",thickness="1 um"}]'
+    base = ["grid.shape=64", layers, 'outputs.depths={deepest="4 um",count=6}']
+    _, alone, _ = run("multilayer-coating", base)
+    _, everything, _ = run("multilayer-coating", [*base, "outputs.stresses=true"])
+    told = alone.summary
+    for name in ("interface_max_shear", "interface_max_tension", "layer_max_von_mises", "layer_max_tension"):
+        assert len(told[f"{name}_Pa"]) == len(told[f"{name}_Pa_error"]) == len(told[f"{name}_x_m"]) == 2
+    assert told["layer_material"] == ["dlc", "tungsten-carbide"]
+    assert told["substrate_max_von_mises_Pa"] > 0
+    np.testing.assert_equal(everything.summary, told)
+    assert "stress" not in alone.variables
+    assert everything.variables["stress"].values.shape[0] == 6
+
+
+@pytest.mark.internal
 def test_no_stress_is_computed_when_none_is_wanted():
     run(rough(outputs={"von_mises": False}))  # plans and spectra are made once
     COUNT.reset()

@@ -58,7 +58,7 @@ def plan(scene: ContactScene) -> Plan:
     bodies = plans.of_bodies(scene, grid, friction, aside=True)
     scene.contact.check_load(grid.area)
     stressed = (scene.lower if outputs.body == "lower" else scene.upper).build()
-    depths, fields = len(scene.wanted_depths()), 7 if outputs.stresses else 1
+    depths, fields = len(scene.wanted_depths()), 7 if scene.needs_components() else 1
     capped, stiffness = scene.contact.behaviour == "capped", plans.stiffest(scene.lower.build(), scene.upper.build())
     held = 2.5 if scene.contact.mean_gap is None else 3.5  # how far an even pressure on what touches displaces
     coarser = plans.coarser_contact(grid, depths, capped=capped, stiffness=stiffness, fields=held)

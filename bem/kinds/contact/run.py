@@ -77,7 +77,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         **roughness,
         lower_height=rough.get("lower"),
         upper_height=rough.get("upper"),
-        **_stress_fields(below),
+        **_stress_fields(scene, below),
         **_coating_fields(scene, grid, response.traction, below),
         **response.arrays(scene),
         contact_spots_of_map=_spots_of_map(scene, grid, solution.pressure),
@@ -141,10 +141,11 @@ def _spots_of_map(scene: ContactScene, grid: Grid, pressure: FloatArray) -> int 
     return count_spots(pressure[:nx, :ny], Grid((nx, ny), grid.spacing, periodic=(wraps[0], wraps[1])))
 
 
-def _stress_fields(below: StressSummary | None) -> dict[str, Any]:
+def _stress_fields(scene: ContactScene, below: StressSummary | None) -> dict[str, Any]:
     """Fields of the record on the stresses below the surface; none where none were asked for."""
     if below is None:
         return {}
+    stress = below.stress if scene.outputs.stresses else None
     return {
         "max_von_mises": below.max_von_mises,
         "max_von_mises_depth": below.max_von_mises_depth,
@@ -153,15 +154,15 @@ def _stress_fields(below: StressSummary | None) -> dict[str, Any]:
         "counted_yielded_volume": below.counted_yielded_volume,
         "depth": below.depths,
         "von_mises": below.von_mises,
-        "component": None if below.stress is None else list(_STRESS_COMPONENTS),
-        "stress": below.stress,
+        "component": None if stress is None else list(_STRESS_COMPONENTS),
+        "stress": stress,
     }
 
 
 def _coating_fields(
     scene: ContactScene, grid: Grid, pressure: FloatArray, below: StressSummary | None
 ) -> dict[str, Any]:
-    """Fields of the record on layers and interfaces of the stressed body; none without layers or components."""
+    """Fields of the record on layers and interfaces of the stressed body; none without layers."""
     from bem.stress import coating_maxima, layer_places, layer_stresses
     from bem.stress.layer_places import highest_point
 
@@ -243,7 +244,7 @@ def _on_few_cells(scene: ContactScene, grid: Grid, pressure: FloatArray, notes: 
 
 
 def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Context) -> StressSummary:
-    """Stresses in the body asked for, at every depth; von Mises on disk where it is very large."""
+    """Stresses in the body asked for, at every depth; on disk where they are very large."""
     from bem.stress import summarise_stress
 
     depths, (body, sign) = np.array(scene.wanted_depths()), scene.stressed()
@@ -254,5 +255,15 @@ def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Co
         release(field)
         context.progress(done, len(depths), "stresses")
 
-    wanted = scene.outputs.stresses
-    return summarise_stress(pressure, grid, body, depths, friction=friction, components=wanted, out=field, after=after)
+    components = context.scratch((6, *field.shape)) if scene.needs_components() else None
+    return summarise_stress(
+        pressure,
+        grid,
+        body,
+        depths,
+        friction=friction,
+        components=components is not None,
+        out=field,
+        components_out=components,
+        after=after,
+    )

@@ -202,6 +202,11 @@ class ContactScene(StressedScene):
             )
         return self
 
+    def needs_components(self) -> bool:
+        """Return True if six stress components are computed: they are wanted, or the stressed body has layers, whose
+        figures need them."""
+        return self.outputs.stresses or (self.outputs.below and bool(self.stressed()[0].layers))
+
     @model_validator(mode="after")
     def _special_bodies_pressed_alone(self) -> ContactScene:
         for name, special in special_bodies(self).items():

@@ -12,7 +12,6 @@ from bem.notes.checks import (
     FATIGUE_CONSTANTS,
     HARDNESS_UNLIKELY,
     LAYER_INCOMPRESSIBLE,
-    LAYER_STRESSES_OFF,
     LAYER_THICKNESS_UNUSUAL,
     RESIDUAL_STRESS,
     RESIDUAL_STRESS_UNUSUAL,
@@ -80,20 +79,6 @@ def incompressible_layer(facts: Facts) -> Iterator[Note]:
         if "layer" in key and nu >= 0.48:
             confined = (1 - nu) / ((1 + nu) * (1 - 2 * nu))
             yield LAYER_INCOMPRESSIBLE(key, ratio=nu, stiffer=confined)
-
-
-@scene_check
-def layers_without_stresses(facts: Facts) -> Iterator[Note]:
-    """The highest stresses of each layer and interface need all components of the stress."""
-    outputs = getattr(facts.scene, "outputs", None)
-    if not facts.of_kind("contact") or outputs is None or outputs.stresses or not outputs.von_mises:
-        return
-    body = facts.cases[0].bodies.get(outputs.body) if facts.cases else None
-    if body is not None and body.layers:
-        count = len(body.layers)
-        yield LAYER_STRESSES_OFF(
-            "outputs.stresses", body=outputs.body, count=f"{count} layers" if count > 1 else "a layer"
-        )
 
 
 @scene_check
