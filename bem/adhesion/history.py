@@ -35,7 +35,8 @@ class AdhesiveHistory:
     energy : [J], elastic and adhesive.
     jumped : True for a step in which the contact jumps: half of the change of the load (of the approach, under a
         prescribed load) happens within a sixteenth of the step.
-    last : state at the end. status : the first one that is not converged, else converged.
+    last, lowest : states at the end and at the lowest load.
+    status : the first one that is not converged, else converged.
     """
 
     load: FloatArray
@@ -44,6 +45,7 @@ class AdhesiveHistory:
     energy: FloatArray
     jumped: NDArray[np.bool_]
     last: AdhesiveSolution
+    lowest: AdhesiveSolution
     status: Status
 
     @property
@@ -109,6 +111,7 @@ def follow_path(
         energy=np.array([state.energy for state in states]),
         jumped=np.array(jumped),
         last=states[-1],
+        lowest=min(states, key=lambda state: state.load),
         status=failed[0] if failed else Status.INFEASIBLE if ended else Status.CONVERGED,
     )
 

@@ -158,6 +158,14 @@ ADHESION_ENDS_APART = define(
     " large and the lowest load {lowest:si N}.",
     "Read the lowest load and the figure of the path, or end the path in contact.",
 )
+PULL_OFF_OF_RANGE = define(
+    "pull-off-of-range",
+    INFO,
+    "The pull-off force depends on the range of adhesion, which its error bar leaves out.",
+    "By the range, here {range:si m}, it lies between {jkr:si N} (JKR, short) and {dmt:si N} (DMT, long); the error bar"
+    " is numerical.",
+    "Run two ranges of adhesion that are likely.",
+)
 ADHESION_JUMPS = define(
     "adhesion-jumps",
     INFO,

@@ -15,7 +15,13 @@ from bem.materials import Body, Layer, Material, contact_modulus
 from bem.notes import Level, has_code
 from bem.notes.accuracy import ERROR_BARS_LOST, NoBar
 from bem.notes.checks import DEPTHS_MISS_STRESS, RESIDUAL_STRESS, RESIDUAL_STRESS_UNUSUAL, YIELDS
-from bem.notes.contact import ADHESION_ENDS_APART, ADHESIVE_ZONE_UNRESOLVED, CONTACT_UNRESOLVED, LINE_APPROACH
+from bem.notes.contact import (
+    ADHESION_ENDS_APART,
+    ADHESIVE_ZONE_UNRESOLVED,
+    CONTACT_UNRESOLVED,
+    LINE_APPROACH,
+    PULL_OFF_OF_RANGE,
+)
 from bem.reference_solutions.hertz import cylinder_contact, sphere_contact
 from bem.reference_solutions.westergaard import crossed_full_contact_pressure
 from bem.relaxation import PronySeries
@@ -526,9 +532,19 @@ def test_a_sphere_has_the_limits_of_its_pull_off_force_beside_it():
     assert told["tabor_parameter"] == pytest.approx(tabor, rel=1e-12)
     assert next(iter(outcome.summary)) == "lowest_load_N"
     assert not has_code(context.notes, ADHESION_ENDS_APART)
+    assert "lowest_load_pressure" not in outcome.variables
     _, outcome, context = run(ADHESIVE)
     assert outcome.summary["contact_area_m2"] == 0
     assert has_code(context.notes, ADHESION_ENDS_APART)
+    lowest = outcome.variables["lowest_load_pressure"].values > 0
+    area = np.count_nonzero(lowest) / lowest.size
+    least = int(np.argmin(outcome.variables["path_load"].values))
+    assert area > 0
+    assert area * grid_of(load_scene(ADHESIVE).grid).area == pytest.approx(
+        outcome.variables["path_contact_area"].values[least], rel=0.35, abs=0
+    )
+    (note,) = [one for one in context.notes if one.code == PULL_OFF_OF_RANGE.code]
+    assert note.values["jkr"] < note.values["dmt"]
 
 
 def test_all_error_bars_lost_to_an_unsolved_coarser_grid_are_one_caution():

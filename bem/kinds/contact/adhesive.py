@@ -12,7 +12,7 @@ from bem.kinds.contact.response import Response
 from bem.kinds.contact.scene import ContactScene
 from bem.kinds.contact.solve import adhesion_tolerance
 from bem.notes import Note
-from bem.notes.contact import ADHESION_ENDS_APART, ADHESION_JUMPS
+from bem.notes.contact import ADHESION_ENDS_APART, ADHESION_JUMPS, PULL_OFF_OF_RANGE
 from bem.reference_solutions.adhesive_sphere import dmt_pull_off_force, jkr_pull_off_force, tabor_parameter
 from bem.scenes import build
 from bem.scenes.context import Context
@@ -84,6 +84,8 @@ class AdhesiveResponse(Response):
                 "path_contact_area": path.contact_area,
                 "path_jump": path.jumped.astype("int8"),
             }
+            if ends_apart(path):
+                found["lowest_load_pressure"] = path.lowest.contact.pressure
         return found
 
     def bars(self, scene: ContactScene, case: ContactCase, below: StressSummary | None, context: Context) -> ErrorBars:
@@ -101,6 +103,11 @@ class AdhesiveResponse(Response):
         return adhesive_bars(case, law, self.path, path, tolerance, after)
 
 
+def ends_apart(path: AdhesiveHistory) -> bool:
+    """Return True if bodies that touched on a path have parted at its end."""
+    return bool(path.contact_area.any() and not path.contact_area[-1])
+
+
 def zone_is_resolved(scene: ContactScene, grid: Grid) -> bool:
     """Return True if the cells resolve the adhesive zone, and without adhesion."""
     law = scene.contact.adhesion
@@ -115,6 +122,10 @@ def adhesion_notes(scene: ContactScene, grid: Grid, path: AdhesiveHistory) -> tu
     if path.jumped.any():
         first = int(path.jumped.argmax())
         notes.append(ADHESION_JUMPS(jumps=int(path.jumped.sum()), load=float(path.load[first]), steps=len(path.load)))
-    if path.contact_area.any() and not path.contact_area[-1]:
+    shape = scene.shape
+    if len(path.load) > 1 and path.lowest_load < 0 and shape.kind == "sphere" and shape.radius is not None:
+        jkr, dmt = jkr_pull_off_force(law.work, shape.radius), dmt_pull_off_force(law.work, shape.radius)
+        notes.append(PULL_OFF_OF_RANGE(range=law.range, jkr=jkr, dmt=dmt))
+    if ends_apart(path):
         notes.append(ADHESION_ENDS_APART(lowest=path.lowest_load, area=float(path.contact_area.max())))
     return tuple(notes)

@@ -39,6 +39,10 @@ def _array(run: Any, name: str) -> Any:
 def _contact_map(run: Any, figure: Figure) -> None:
     state = _array(run, "contact_state")
     axes = figure.add_subplot()
+    area = run.summary.get("contact_area_fraction")
+    if "lowest_load_pressure" in run.dataset and not state.any():
+        state, area = (_array(run, "lowest_load_pressure") > 0).astype(np.int8), None
+        axes.set_title("at the lowest load; apart at the end of the path")
     extent = field_axes(axes, _array(run, "x"), _array(run, "y"))
     colours = ListedColormap([OPEN, BLUE, ORANGE])
     axes.imshow(
@@ -60,7 +64,7 @@ def _contact_map(run: Any, figure: Figure) -> None:
         loc="outside lower center",
         ncols=3,
         columnspacing=1.2,
-        title=_edges_of(run.summary.get("contact_area_fraction"), float(np.mean(state > 0))),
+        title=_edges_of(area, float(np.mean(state > 0))),
         title_fontsize=8,
     )
 

@@ -214,6 +214,9 @@ class ContactRecord(GridRecord, WheelRailRecord):
         FloatArray | None, Series(("component", "depth", "x", "y"), "Pa", "stress, positive in tension")
     ] = None
     attraction: Annotated[FloatArray | None, grid_map("Pa", "attraction by adhesion")] = None
+    lowest_load_pressure: Annotated[
+        FloatArray | None, grid_map("Pa", "contact pressure at the lowest load of a path that ends apart")
+    ] = None
     path_time: Annotated[FloatArray | None, Series(("step",), "s", "time on the path")] = None
     path_load: Annotated[FloatArray | None, Series(("step",), "N", "load on the path")] = None
     path_approach: Annotated[FloatArray | None, Series(("step",), "m", "approach on the path")] = None
