@@ -156,7 +156,7 @@ def element(
         draw_element(found, runs, figure)
         print_written(figure)
     if scene is not None and made is not None:
-        write_text(scene, scene_text(made))
+        write_text(scene, scene_text(made, bulk_estimated=found.bulk_estimated))
         print_written(scene)
         print(f"next:    bem plan {scene}; bem run {scene}")
 

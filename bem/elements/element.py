@@ -406,6 +406,9 @@ class Element:
                 return base | self._rubbing_bush(self.model, contact, bodies)
             return base | rubbing_scene(self.model, contact, bodies, self._patch_modulus)
         film, more = self._film_scene(contact, bodies, kind)
+        if kind == LIFE and self.found.passes[0]:
+            count = film["life"]["count"]
+            more.append(f"{count} cycles, passes of body 1, take {count / self.found.passes[0] / 3600:.2g} h")
         base["description"] = "; ".join([base["description"], *more])
         return base | film
 

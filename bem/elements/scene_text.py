@@ -52,14 +52,23 @@ _OF_LOWER = "    # of the lower surface; the entrainment speed is {mean}"
 """Comment on the speed of a scene with sliding."""
 
 
-def scene_text(table: Mapping[str, Any]) -> str:
-    """Return the table of an element's scene as TOML text for a reader: tables under headings, values with units."""
+_FLANKS = "    # of the flanks, estimated with this oil: another oil needs its own (bem element --cases)"
+"""Comment on the oil's temperature where it is that of flanks by an estimate."""
+
+
+def scene_text(table: Mapping[str, Any], *, bulk_estimated: bool = False) -> str:
+    """Return the table of an element's scene as TOML text for a reader: tables under headings, values with units.
+
+    bulk_estimated : True if the oil's temperature is an estimate of the bodies' with this oil, which a comment says.
+    """
     tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
     rolls = table.get("kind") == "friction" and table["speeds"]["slide_roll_ratio"] == 0
     speeds = table.get("speeds", {})
     lines = [f"{key} = {_value(key, value)}" for key, value in table.items() if key not in tables]
     for key, inner in tables.items():
         lines += ["", f"[{key}]", *(_line(name, value) for name, value in inner.items())]
+        if bulk_estimated and key == "oil" and "temperature" in inner:
+            lines[-len(inner) + list(inner).index("temperature")] += _FLANKS
         if rolls and key == "speeds":
             lines[-1] += _PURE_ROLLING
         if key == "speeds" and speeds.get("slide_roll_ratio") and len(speeds.get("values", [])) == 1:

@@ -69,6 +69,13 @@ LIFE_DISTANCE_DIFFERS = define(
     "It is {given:si m}; at these speeds a place slides {slid:si m} while the {length:si m} of the patch pass.",
     "Set wear.law.distance to {slid:si m}.",
 )
+LIFE_BARS_WIDE = define(
+    "life-bars-wide",
+    CAUTION,
+    "Error bars of the life are nearly as large as its figures.",
+    "That of {figure} is {share:.0%} of it: means over {positions} positions of two rough surfaces scatter.",
+    "Set wear.positions = {more}, or take a larger patch.",
+)
 PIECES_IN_SOME_STEPS = define(
     "pieces-in-some-steps",
     INFO,

@@ -10,6 +10,7 @@ import pytest
 from command_line import run_command
 
 from bem import InputError, load_scene, plan_scene, run_scene
+from bem.elements.answer import balance_heat
 from bem.elements.contact import WIDE
 from bem.elements.element import KINDS, LIFE, MODELS, element_template, load_element
 from bem.elements.scene_text import scene_text
@@ -178,3 +179,15 @@ def test_the_heat_of_an_elements_films_can_be_chosen():
     assert plain.scene(plain.worst(), "traction")["thermal"] == "lumped"
     balls = load_element(tomllib.loads(element_template("rolling-bearing")) | {"thermal": "full"})
     assert balls.scene(balls.worst(), "friction")["thermal"] == "lumped"  # full heat is one of lines
+
+
+def test_the_oil_of_a_gear_scene_says_that_its_temperature_is_an_estimate():
+    """And a life how long its cycles take: a flank passes once a turn of its gear."""
+    gears = balance_heat(load_element(tomllib.loads(element_template("gear-pair")) | {"name": "gears"}))
+    assert gears.bulk_estimated
+    text = scene_text(gears.path_scene(), bulk_estimated=True)
+    (line,) = (one for one in text.splitlines() if one.startswith("temperature = "))
+    assert "estimated with this oil" in line
+    assert "estimated" not in scene_text(gears.path_scene())
+    life = gears.scene(gears.thinnest_steady(), LIFE)
+    assert f"take {1e6 / (2250 / 60) / 3600:.2g} h" in life["description"]

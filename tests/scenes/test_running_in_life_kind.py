@@ -186,6 +186,20 @@ def test_films_of_the_fewest_points_are_compared_with_films_of_twice_as_many():
     assert points["minimum_film"] > 0 < points["friction_final"]
 
 
+@pytest.mark.parametrize(("share", "said"), [(0.9, True), (0.1, False)])
+def test_bars_as_large_as_their_figures_are_a_caution(monkeypatch, share, said):
+    import bem.accuracy
+
+    def bars(end):
+        return jump_bars(end) | {"Sq_final": share * life_figures(end)["Sq_final"]}
+
+    jump_bars, life_figures = bem.accuracy.jump_bars, bem.accuracy.life_figures
+    monkeypatch.setattr(bem.accuracy, "jump_bars", bars)
+    life = SHORT | {"count": 10, "first_step": 10.0, "coarser_lives": False}
+    notes = [note for note in run(LIFE | {"life": life})[1].notes if note.code == "life-bars-wide"]
+    assert [note.values["share"] for note in notes] == ([pytest.approx(share)] if said else [])
+
+
 def test_a_distance_that_the_speeds_do_not_make_is_said():
     law = LIFE["wear"]["law"] | {"distance": "54 um"}
     scene = LIFE | {"wear": LIFE["wear"] | {"law": law}, "life": SHORT | {"count": 10, "first_step": 10.0}}

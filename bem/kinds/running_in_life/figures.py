@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -52,9 +53,13 @@ def _wear(run: Any, figure: Figure) -> None:
     missed = 1e9 * data["depth_error_over_cycles"].values
     for name, colour, line in (("lower", BLUE, "-"), ("upper", VERMILION, "--")):  # of one rate both wear alike
         depth = 1e9 * data[f"{name}_depth_over_cycles"].values
+        bar = run.summary.get(f"{name}_worn_depth_nm_error")
+        band = missed
+        if isinstance(bar, float) and depth[-1] > 0:  # the bar of the end, in proportion to the depth
+            band = np.maximum(missed, bar * depth / depth[-1])
         upper.plot(cycle, 1e9 * data[f"{name}_rms_over_cycles"].values, line, color=colour, label=f"{name} surface")
         lower.plot(cycle, depth, line, color=colour, label=f"{name} surface")
-        lower.fill_between(cycle, depth - missed, depth + missed, color=colour, alpha=0.2, linewidth=0)
+        lower.fill_between(cycle, depth - band, depth + band, color=colour, alpha=0.2, linewidth=0)
     upper.set_ylabel("Sq of the\nwhole surface (nm)")
     lower.set_ylabel("mean depth\nworn (nm)")
     start_at_zero(upper)
@@ -65,7 +70,12 @@ def _wear(run: Any, figure: Figure) -> None:
 def _film(run: Any, figure: Figure) -> None:
     axes, data = figure.add_subplot(), run.dataset
     cycle = _axis(run, axes)
-    axes.plot(cycle, 1e9 * data["minimum_film_over_cycles"].values, color=BLUE, label="minimum oil film")
+    axes.plot(
+        cycle,
+        1e9 * data["minimum_film_over_cycles"].values,
+        color=BLUE,
+        label="minimum oil film, under its part of the load",
+    )
     if "tribofilm_over_cycles" in data.variables:
         axes.plot(cycle, 1e9 * data["tribofilm_over_cycles"].values, color=GREEN, label="tribofilm, mean")
     axes.set_ylabel("thickness (nm)")
@@ -123,7 +133,7 @@ FIGURES = (
     ),
     FigureKind(
         "wear-over-life",
-        "Roughness and mean depth worn of both surfaces over the cycles; bands are the error of the cycle jumps.",
+        "Roughness and mean depth worn of both surfaces over the cycles; bands are the error bars of the depths.",
         ("cycle", "lower_depth_over_cycles", "depth_error_over_cycles", "lower_rms_over_cycles"),
         _wear,
         (6.0, 5.0),

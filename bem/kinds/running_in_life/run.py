@@ -14,7 +14,7 @@ from bem.kinds.running_in_life.plan import JUMPS_ALONE
 from bem.kinds.running_in_life.record import RunningInLifeRecord
 from bem.kinds.running_in_life.scene import RunningInLifeScene
 from bem.notes.accuracy import BARS_PARTIAL
-from bem.notes.wear import LIFE_DISTANCE_DIFFERS
+from bem.notes.wear import LIFE_BARS_WIDE, LIFE_DISTANCE_DIFFERS
 from bem.scenes import build
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.packing import keep, kept
@@ -57,10 +57,40 @@ def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
         context.note(note)
     wanted = scene.life.coarser_lives
     bars = error_bars(context, wanted, lambda: lives.bars(scene, initial, end)) or {"errors": jump_bars(end)}
+    _tell_wide_bars(scene, context, end, bars["errors"])
     bars["errors"] = _with_body(bars["errors"])
     if "error_parts" in bars:
         bars["error_parts"] = {origin: _with_body(part) for origin, part in bars["error_parts"].items()}
     return replace(_record(scene, setup, end, monitors), oil_scatter=lives.oil_scatter(case, end), **bars)
+
+
+_WIDE = 0.4
+"""Error bar over its figure from which on a caution says so."""
+
+
+def _tell_wide_bars(scene: RunningInLifeScene, context: Context, end: LifeState, errors: Mapping[str, Any]) -> None:
+    """Note the error bar that is largest over its figure, of those that the answer of a life is about."""
+    from bem.accuracy import life_figures
+
+    found = life_figures(end)
+    shares = {
+        name.replace("_", " "): abs(errors[key] / found[key])
+        for key, name in _JUDGED.items()
+        if errors.get(key) is not None and found.get(key)
+    }
+    if shares and max(shares.values()) > _WIDE:
+        worst = max(shares, key=lambda name: shares[name])
+        positions = scene.wear.positions
+        context.note(LIFE_BARS_WIDE(figure=worst, share=shares[worst], positions=positions, more=4 * positions))
+
+
+_JUDGED = {
+    "Sq_final": "Sq at the end",
+    "lambda_ratio": "the lambda ratio",
+    "friction_final": "friction at the end",
+    "worn_depth": "the worn depth",
+}
+"""Figures whose error bars are compared with them, and their names in the caution."""
 
 
 def _with_body(figures: Mapping[str, Any]) -> dict[str, Any]:
