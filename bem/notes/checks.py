@@ -451,6 +451,13 @@ NO_WEAR_RATE = define(
     "criterion_wear_rate is up to {rate:.2g} mm3/(N m){of}; metals have 1e-9 to {severe:g}.",
     "Take volumes from a measured rate ([archard], or the criterion archard).",
 )
+TYPICAL_LENGTHS = define(
+    "typical-lengths",
+    INFO,
+    "The correlation length of the roughness is a typical one, not measured.",
+    "{bodies}: {length:si m} of process {process}; a longer one leaves the asperities less of the load.",
+    "Take measured surfaces (path), or correlation_length of your own.",
+)
 NO_PARTICLE_SIZES = define(
     "no-particle-sizes",
     INFO,

@@ -221,6 +221,15 @@ CASES = {
         (("wear-brass-transfer-film", 'depths.spacing="150 nm"'), "100 nm"),
         "wear-brass-transfer-film",
     ),
+    "lengths_of_the_process": (
+        (
+            with_(library()["stribeck-ball-on-disc"], lower__surface={"process": "lapped"}),
+            "lower: 6 um of process lapped",
+        ),
+        with_(
+            library()["stribeck-ball-on-disc"], lower__surface={"process": "lapped", "correlation_length": "9 um"}
+        ),
+    ),
     "surfaces_only_roll": (
         (("stribeck-ball-on-disc", "speeds.slide_roll_ratio=0"), "asperities carry load but do not rub"),
         "stribeck-ball-on-disc",

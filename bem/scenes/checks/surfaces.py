@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from bem.notes import Note
-from bem.notes.checks import MAP_COARSE, SLOPES_LARGE, SURFACE_IS_FORM
+from bem.notes.checks import MAP_COARSE, SLOPES_LARGE, SURFACE_IS_FORM, TYPICAL_LENGTHS
 from bem.notes.note import joined
 from bem.notes.scenes import MAP_ALTERED
 from bem.scenes.checks.facts import Facts
@@ -14,7 +14,7 @@ from bem.scenes.checks.hertz import STEEP
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.surfaces_of import RoughSurface
 from bem.scenes.checks.words import times
-from bem.scenes.common import MeasuredSurface
+from bem.scenes.common import GeneratedSurface, MeasuredSurface
 from bem.scenes.maps import MOST_SEAM_CHANGE
 from bem.surfaces.describe import STEEPEST_SURFACE
 
@@ -36,6 +36,23 @@ def steep_roughness(facts: Facts) -> Iterator[Note]:
     for slope, case, surface in facts.worst_surfaces(lambda surface: surface.rms_slope):
         if slope > STEEP and not (isinstance(surface.table, MeasuredSurface) and slope > STEEPEST_SURFACE):
             yield SLOPES_LARGE(case.note_place(f"{surface.body}.surface"), slope=slope, reason="roughness")
+
+
+@scene_check
+def lengths_of_the_process(facts: Facts) -> Iterator[Note]:
+    """At one rms height the correlation length decides how much of the load film and asperities carry; that of a
+    process is of the right size at best."""
+    if not facts.of_kind("friction", "running-in", "running-in-life"):
+        return
+    found: dict[tuple[str, float], list[str]] = {}
+    for body in ("lower", "upper"):
+        table = getattr(facts.scene, body).surface
+        if not isinstance(table, GeneratedSurface) or table.process is None or table.correlation_length is None:
+            continue
+        if "correlation_length" not in table.source.rpartition("The scene itself gives")[2]:
+            found.setdefault((table.process, table.correlation_length), []).append(body)
+    for (process, length), bodies in found.items():
+        yield TYPICAL_LENGTHS(bodies=" and ".join(bodies), process=process, length=length)
 
 
 @scene_check
