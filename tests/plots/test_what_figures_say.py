@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from bem.notes.contact import LINE_APPROACH
 from bem.notes.lubrication import FILM_SPIKE
 from bem.plots import draw as drawing
 from bem.plots.cases import case_shown, case_words
@@ -273,6 +274,20 @@ def test_flat_figures_over_keys_and_films_that_are_nowhere_are_not_drawn():
     )
     assert not films["film-map"].applies(empty)
     assert not films["film-wear-rate"].applies(empty)
+
+
+@pytest.mark.parametrize(("notes", "drawn"), [((), True), ((LINE_APPROACH(reason="steady").as_dict(),), False)])
+def test_approaches_that_cannot_be_compared_are_not_drawn_over_speeds(notes, drawn):
+    """Of a rolling line contact the approach is not comparable between speeds; nothing else differs here."""
+    key = "contact.rolling_speed"
+    variables = {
+        key: Variable((key,), np.array([1e-3, 1.0, 1e3]), "m/s", key),
+        "approach": Variable((key,), np.array([392e-6, 180e-6, -388e-6]), "m", "approach"),
+    }
+    summary = {"notes": list(notes)}
+    run = run_of("contact", key, variables, scene={"over": {key: [1e-3, 1.0, 1e3]}}, summary=summary)
+    (kind,) = KEYS
+    assert kind.applies(run) is drawn
 
 
 def way_run():

@@ -6,12 +6,17 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from bem.notes import of_summary
+from bem.notes.contact import LINE_APPROACH
 from bem.plots.cases import axes_of
 from bem.plots.figures import FigureKind
 from bem.plots.sweep import fill, varies
 from bem.scenes.context import Variable
 from bem.scenes.kind import get_kind
 from bem.scenes.records import figures
+
+APPROACH = "approach_m"
+"""Figure of contacts without an absolute zero on lines."""
 
 
 def _keys(run: Any) -> list[str]:
@@ -29,13 +34,20 @@ def _variables(run: Any) -> dict[str, Variable]:
 
 
 def _figures(run: Any, figure: Figure) -> None:
-    fill(figure, _variables(run), dict.fromkeys(_keys(run), "linear"), get_kind(run.summary["kind"]).headline)
+    fill(figure, _variables(run), dict.fromkeys(_keys(run), "linear"), _headline(run))
+
+
+def _headline(run: Any) -> tuple[str, ...]:
+    """Return the headline figures that can be compared: approaches of line contacts in steady motion cannot."""
+    headline = tuple(get_kind(run.summary["kind"]).headline)
+    incomparable = any(note["code"] == LINE_APPROACH.code for note in of_summary(run.summary))
+    return tuple(name for name in headline if not (incomparable and name == APPROACH))
 
 
 def _applies(run: Any) -> bool:
     """Return True if any headline figure differs along the keys: flat curves say nothing."""
     keys = _keys(run)
-    return bool(keys) and varies(_variables(run), keys, get_kind(run.summary["kind"]).headline)
+    return bool(keys) and varies(_variables(run), keys, _headline(run))
 
 
 FIGURES = (
