@@ -64,7 +64,8 @@ def register(app: typer.Typer) -> None:
         seconds = seconds_to_compile(resolved)
         if seconds > 0:
             print_text(
-                f"not compiled yet: the first run takes about {seconds:.0f} s longer (`bem warm-up` does it now)"
+                f"not compiled yet: the first run takes about {seconds:.0f} s longer, several times that where other "
+                "programs use the processor (`bem warm-up` compiles now, on all cores)"
             )
         free = available_memory()
         if planned.memory > free:

@@ -90,18 +90,21 @@ _SAID = 10.0
 
 
 def seconds_to_compile(scene: Any) -> float:
-    """Return about how much longer the first run of a scene takes [s]: its loops that are not compiled yet.
+    """Return the approximate processor time to compile those loops of a scene [s] that are not compiled yet.
 
     Loops are those of a contact, and of the film or of the running-in that the scene's kind needs besides; a run of
     another kind leaves those to be compiled.
     """
-    from bem.compiled import FILM_SECONDS, SECONDS, WEAR_SECONDS, is_cold
+    from bem.compiled import FILM_SECONDS, SECONDS, SHARING_SECONDS, WEAR_SECONDS, is_cold
 
     seconds = SECONDS * is_cold()
     if running_in_is_cold(scene):
         return seconds + WEAR_SECONDS
     film = _film_of(scene)
-    return seconds + (FILM_SECONDS[film] if film is not None and is_cold(_RUNNING_IN[film]) else 0.0)
+    if film is None or not is_cold(_RUNNING_IN[film]):
+        return seconds
+    sharing = SHARING_SECONDS if scene.kind in ("friction", "running-in-life") else 0.0
+    return seconds + FILM_SECONDS[film] + sharing
 
 
 def _film_of(scene: Any) -> str | None:
