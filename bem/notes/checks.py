@@ -234,7 +234,7 @@ ROUGHNESS_UNRESOLVED = define(
         "film-wave": Reason(
             "The film has about {cells:.2g} cells to the surface's shortest wave; load shares in contact change by"
             " tens of per cent below {fewest:g}.",
-            "Take more cells of the film.",
+            "Set more film.cells.",
         ),
     },
 )
