@@ -24,30 +24,27 @@ def _keys(run: Any) -> list[str]:
 
 
 def _variables(run: Any) -> dict[str, Variable]:
-    """Axes of the cases and figures over them, by their names in the summary."""
+    """Axes of the cases and figures over them, by their names in the summary; without approaches that cannot be
+    compared, those of line contacts in steady motion."""
+    incomparable = any(note["code"] == LINE_APPROACH.code for note in of_summary(run.summary))
     kind, data = get_kind(run.summary["kind"]), run.dataset
     variables = {name: data[name] for name in axes_of(data)}
     for key, name in figures(kind.record).items():
+        if incomparable and key == APPROACH:
+            continue
         if name in data.variables and set(data[name].dims) <= set(axes_of(data)):
             variables[key] = data[name]
     return variables
 
 
 def _figures(run: Any, figure: Figure) -> None:
-    fill(figure, _variables(run), dict.fromkeys(_keys(run), "linear"), _headline(run))
-
-
-def _headline(run: Any) -> tuple[str, ...]:
-    """Return the headline figures that can be compared: approaches of line contacts in steady motion cannot."""
-    headline = tuple(get_kind(run.summary["kind"]).headline)
-    incomparable = any(note["code"] == LINE_APPROACH.code for note in of_summary(run.summary))
-    return tuple(name for name in headline if not (incomparable and name == APPROACH))
+    fill(figure, _variables(run), dict.fromkeys(_keys(run), "linear"), get_kind(run.summary["kind"]).headline)
 
 
 def _applies(run: Any) -> bool:
     """Return True if any headline figure differs along the keys: flat curves say nothing."""
     keys = _keys(run)
-    return bool(keys) and varies(_variables(run), keys, _headline(run))
+    return bool(keys) and varies(_variables(run), keys, get_kind(run.summary["kind"]).headline)
 
 
 FIGURES = (
