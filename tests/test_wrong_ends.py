@@ -83,6 +83,16 @@ def test_names_of_a_plain_bush_write_one(word):
     assert element_template(word) == element_template("plain-bush")
 
 
+def test_a_name_of_two_words_gives_a_file_whose_next_command_can_be_typed(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, said = bem("new", "plain bearing")
+    assert code == 0
+    assert "next:    bem element plain-bearing.toml" in said
+    assert (tmp_path / "plain-bearing.toml").is_file()
+    code, said = bem("new", "plain bearing", "my bush.toml")
+    assert "bem element 'my bush.toml'" in said
+
+
 def test_journal_bearings_say_what_is_missing_and_what_can_be_done_instead():
     code, said = bem("new", "journal-bearing")
     assert code == 2

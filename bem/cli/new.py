@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -79,7 +80,7 @@ def register(app: typer.Typer) -> None:
             _check_kind(kind)
         elif everything:
             raise InputError(f"--all: {kind} is a machine element; its file has all keys; allowed: without --all")
-        path = file or Path(f"{kind}.toml")
+        path = file or Path(f"{'-'.join(kind.split())}.toml")
         surfaces = {body: one for body, one in (("lower", lower), ("upper", upper)) if one is not None}
         if element and surfaces:
             raise InputError(f"--lower, --upper: {kind} is a machine element; allowed: kinds of scene")
@@ -94,7 +95,8 @@ def register(app: typer.Typer) -> None:
         if not path.parent.is_dir():
             raise ResultsError(f"{path.parent}: no such folder")
         write_text(path, text)
-        after = f"bem element {path}" if element else f"bem plan {path}; bem run {path}"
+        typed = shlex.quote(str(path))
+        after = f"bem element {typed}" if element else f"bem plan {typed}; bem run {typed}"
         print_written(path)
         print(f"next:    {after}")
 
