@@ -232,3 +232,19 @@ def test_a_sweep_a_file_of_a_run_and_a_wrong_name(tmp_path):
     assert "without a run or a sweep" in cite(tmp_path)
     assert 'did you mean "hertz-sphere"?' in cite("hertz-sphre")
     assert "did you mean" not in cite("nothere")
+
+
+def test_gears_and_bearings_cite_geometry_load_sharing_and_concepts(tmp_path):
+    wanted = {"gear-pair": ("iso21771", "isotr15144", "isots6336"), "rolling-bearing": ("sjovall1933",)}
+    for name, keys in wanted.items():
+        file = tmp_path / f"{name}.toml"
+        file.write_text(element_template(name))
+        said = CliRunner().invoke(build(), ["cite", str(file), "--bibtex"]).output
+        assert all(f"{{{key}," in said for key in keys), name
+
+
+def test_a_scene_of_measured_surfaces_is_cited_without_its_maps(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(build(), ["cite", "measured-surfaces"])
+    assert done.exit_code == 0
+    assert "Greenwood" in done.output

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+if TYPE_CHECKING:
+    from bem.scenes.common import SceneModel
 
 
 def register(app: typer.Typer) -> None:
@@ -29,12 +32,11 @@ def register(app: typer.Typer) -> None:
         from bem.campaigns.cited import catalogue_sources, sources_of
         from bem.cli._terminal import print_text
         from bem.references import references
-        from bem.runs import plan_scene
 
         found, constants = _of_element(scene)
         if not found:
-            planned = plan_scene(_scene_of(scene))[0]
-            found, constants = sources_of(planned), catalogue_sources(planned)
+            used = _resolved(_scene_of(scene))
+            found, constants = sources_of(used), catalogue_sources(used)
         known = references()
         keys = sorted(found, key=lambda key: known[key].text)
         if not bibtex:
@@ -45,6 +47,37 @@ def register(app: typer.Typer) -> None:
             print()
         for key in keys:
             print(known[key].bibtex)
+
+
+def _resolved(source: str) -> SceneModel:
+    """Return a scene with its defaults; maps that do not exist are replaced by one of the package's, as sources of
+    methods do not depend on heights.
+
+    Raises
+    ------
+    InputError : a bad scene.
+    """
+    from bem.runs import plan_scene
+    from bem.scenes.load import read_table
+
+    table = read_table(source)
+    return plan_scene(_with_maps(table))[0]
+
+
+def _with_maps(value: Any) -> Any:
+    """Return a value of a scene in which every measured surface without a file has a map of the package."""
+    from pathlib import Path
+
+    from bem.surfaces.examples import FOLDER
+
+    if isinstance(value, list):
+        return [_with_maps(one) for one in value]
+    if not isinstance(value, dict):
+        return value
+    found = {key: _with_maps(one) for key, one in value.items()}
+    if found.get("kind") == "measured" and not Path(str(found.get("path"))).is_file():
+        found["path"] = str(FOLDER / "ground-disk.al3d")
+    return found
 
 
 _SURELY_MEANT = 0.8

@@ -19,10 +19,16 @@ _FILM = {
 }
 _OF_MODEL: dict[type, dict[str, str]] = {
     BearingModel: {
+        "sjovall1933": "load distribution over the rolling elements",
         **dict.fromkeys(reference_life.CITES, "reference rating life"),
         **dict.fromkeys(rating_life.CITES, "rating life"),
     },
-    GearModel: dict.fromkeys(scuffing.CITES, "scuffing and friction of gear tests"),
+    GearModel: {
+        **dict.fromkeys(scuffing.CITES, "scuffing and friction of gear tests"),
+        "iso21771": "geometry of involutes",
+        "isotr15144": "sharing of the load by teeth",
+        "isots6336": "safety against scuffing and micropitting, by its concepts",
+    },
     CamModel: {},
     PistonRingModel: {"reynolds1886": "film of the ring"},
     PlainBushModel: dict.fromkeys(pin_in_hole.CITES, "shaft in a bush, closed form that it is verified against"),
