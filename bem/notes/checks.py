@@ -409,9 +409,13 @@ HARDNESS_DECIDES = define(
     INFO,
     "Pressures are limited by the hardness that was given.",
     reasons={
-        "reached": "{cells} are at the hardness, {cap:si Pa}; work hardening is left out.",
+        "reached": (
+            "{cells:%} of the cells in contact, which carry {load:%} of the load, are at the hardness, {cap:si Pa}; "
+            "work hardening is left out."
+        ),
         "area-is-load": (
-            "{cells} are at the hardness, {cap:si Pa}, without work hardening. The contact area is then load over "
+            "{cells:%} of the cells in contact, which carry {load:%} of the load, are at the hardness, {cap:si Pa}, "
+            "without work hardening. The contact area is then load over "
             "hardness and tells little of the surfaces."
         ),
         "within-error": (

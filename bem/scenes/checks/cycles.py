@@ -59,10 +59,13 @@ def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     b, a = max(grown, key=lambda pair: pair[1] / pair[0])
     larger = max(numbers(outcome.summary.get("volume_mean_radius_nm")) or [0.0])
     holes = f" (mean radius by volume up to {si(1e-9 * larger, 'm')})" if larger > both else ""
-    still, (cells, cap, _) = _drifting(facts, outcome), at_the_cap(facts, outcome)
+    still, capped = _drifting(facts, outcome), at_the_cap(facts, outcome)
     follows = [f"it had not settled ({joined(still)})"] if still else []
-    if cells:
-        follows.append(f"{cells} are at the hardness, {si(cap, 'Pa')}")
+    if capped is not None:
+        follows.append(
+            f"{percent(capped.cell_share)} of the cells in contact, which carry {percent(capped.load_share)} of the "
+            f"load, are at the hardness, {si(capped.cap, 'Pa')}"
+        )
     so = f": so {joined(follows)}" if follows else ""
     yield SURFACE_ROUGHENED(
         of=_of(len(grown), len(before)), before=1e-9 * b, after=1e-9 * a, both=1e-9 * both, holes=holes, so=so

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -23,7 +24,7 @@ from bem.notes.checks import (
     YIELDS,
 )
 from bem.notes.contact import CONTACT_AT_EDGE, FEW_SPOTS, ROLLING_UNRESOLVED
-from bem.notes.note import joined, percent
+from bem.notes.note import joined
 from bem.quantities import si
 from bem.scenes.build import AnySurface
 from bem.scenes.checks.contact import hertz_pressure_above_hardness, yield_below_the_surface
@@ -197,40 +198,48 @@ def _share_above(pressure: NDArray[np.float64], limit: float) -> float:
 @outcome_check
 def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Note that the pressure is the cap, an input and not a result, on at least a tenth of the contact."""
-    cells, cap, share = at_the_cap(facts, outcome)
-    if cells and not roughened(facts, outcome).grown:  # which says it too
-        yield HARDNESS_DECIDES(cells=cells, cap=cap, reason="area-is-load" if share > _PLASTIC else "reached")
+    found = at_the_cap(facts, outcome)
+    if found is not None and not roughened(facts, outcome).grown:  # which says it too
+        reason = "area-is-load" if found.load_share > _PLASTIC else "reached"
+        yield HARDNESS_DECIDES(cells=found.cell_share, load=found.load_share, cap=found.cap, reason=reason)
 
 
 _PLASTIC = 0.8
 """Share of the load on cells at the hardness from which the contact area is that of load over hardness, within 25 %."""
 
 
-def at_the_cap(facts: Facts, outcome: Outcome) -> tuple[str, float, float]:
-    """Return the share of the contact area, or of the cells, at the hardness in words, the hardness [Pa], and their
-    share of the load.
+@dataclass(frozen=True)
+class CappedCells:
+    """Cells of a contact whose pressure is the hardness.
 
-    Nothing below a tenth of the cells.
+    Attributes
+    ----------
+    cell_share : their number over that of the cells in contact.
+    load_share : share of the load that they carry.
+    cap : the hardness [Pa].
+    """
+
+    cell_share: float
+    load_share: float
+    cap: float
+
+
+def at_the_cap(facts: Facts, outcome: Outcome) -> CappedCells | None:
+    """Return the cells at the hardness; None where they are fewer than a tenth of the cells in contact.
+
+    Both shares are of the same cells. The figures of areas are not: their edges lie between cells, which are touched in
+    part and carry less than the hardness.
     """
     case = _capped(facts, outcome)
     if case is None or case.cap is None or not facts.of_kind("contact", "wear", "running-in"):
-        return "", 0.0, 0.0
+        return None
     for maps in _pressures(outcome)[:1]:
         plane = maps[-1]
         touching, capped = np.count_nonzero(plane > 0), plane >= case.cap * (1 - 1e-9)
         if touching and np.count_nonzero(capped) > _AT_CAP * touching:
-            share = float(plane[capped].sum() / plane.sum())
-            cells = _of_area(outcome) or f"{percent(np.count_nonzero(capped) / touching)} of the cells in contact"
-            return f"{cells}, which carry {percent(share)} of the load,", case.cap, share
-    return "", 0.0, 0.0
-
-
-def _of_area(outcome: Outcome) -> str:
-    """Return the part of the contact area at the hardness, as the figures of a single case have it; "" of others."""
-    area, plastic = (numbers(outcome.summary.get(f"{name}_area_fraction")) for name in ("contact", "plastic"))
-    if len(area) != 1 or len(plastic) != 1 or not 0 < plastic[0] <= area[0]:
-        return ""
-    return f"Cells on {percent(plastic[0] / area[0])} of the contact area"
+            share = np.count_nonzero(capped) / touching
+            return CappedCells(share, float(plane[capped].sum() / plane.sum()), case.cap)
+    return None
 
 
 @outcome_check
