@@ -96,6 +96,19 @@ def test_depth_runs_downwards(tmp_path):
     assert bottom > top == 0
 
 
+def test_a_section_is_at_the_reported_one_of_two_mirrored_maxima(tmp_path):
+    """Equal maxima at +y and -y: tables report the last one (`bem.stress.layer_places.highest_point`)."""
+    run = contact_run(tmp_path)
+    field = run.dataset["von_mises"].values
+    field[:] = 1e8
+    field[2, 20, 9] = field[2, 20, 21] = 7e8
+    _, axes = axes_of(run, "von-mises-section")
+    assert axes[0].get_title(loc="right") == "y = 6 µm"
+    run.summary["max_von_mises_Pa"] = 7.5e8
+    _, axes = axes_of(run, "von-mises-section")
+    assert "maximum of the points" in axes[0].get_legend().get_texts()[-1].get_text()
+
+
 def test_files_have_the_asked_format_and_size(tmp_path):
     from PIL import Image
 

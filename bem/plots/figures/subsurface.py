@@ -21,6 +21,18 @@ from bem.stress.layer_places import highest_point
 _DRAWN_DEPTHS = 480
 
 
+_BEYOND_POINTS = 1.001
+"""Highest von Mises stress over that of the points from which on the picture says that it has the latter."""
+
+
+def _name_of_maximum(run: Any, highest: float) -> str:
+    """Return the name of the highest stress of the points: that of all may be at the edge of the contact, between
+    them."""
+    whole = run.summary.get("max_von_mises_Pa")
+    between = isinstance(whole, float) and whole > _BEYOND_POINTS * highest
+    return "maximum of the points" if between else "maximum"
+
+
 def _von_mises_section(run: Any, figure: Figure) -> None:
     """The plane along x and depth that holds the largest von Mises stress."""
     stress, depth, x = (run.dataset[name].values for name in ("von_mises", "depth", "x"))
@@ -75,7 +87,7 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
         color=SKY,
         markersize=9,
         linestyle="none",
-        label=f"maximum, {highest * factor:.3g} {unit}",
+        label=f"{_name_of_maximum(run, highest)}, {highest * factor:.3g} {unit}",
     )
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     _mark_depths(axes, computed * factor_z)
