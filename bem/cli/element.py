@@ -111,8 +111,12 @@ def element(
         chosen = found.contact_for(kind)
     if not at and scene is not None and chosen is not found.critical():
         print_text(f"Scene of the contact with the thinnest film, {place_words(found, chosen)}.")
-        if chosen.hertz(found.modulus).maximum_pressure < found.critical().hertz(found.modulus).maximum_pressure:
-            print_text(f"The highest pressure is at {place_words(found, found.critical())}: --at worst.")
+        critical = found.critical()
+        lower = chosen.hertz(found.modulus).maximum_pressure < critical.hertz(found.modulus).maximum_pressure
+        if lower and abs(critical.slide_roll_ratio) <= 2:
+            print_text(f"The highest pressure is at {place_words(found, critical)}: --at worst.")
+    if scene is not None and at in ("worst", "thinnest"):
+        chosen = _with_steady_film(found, chosen, at, kind)
     if scene is not None and whole and kind != "traction":
         raise InputError(f"--at path: makes a scene of kind traction; allowed: no --kind, or one place, not {kind}")
     made = None if scene is None else found.path_scene() if whole else found.scene(chosen, kind)
@@ -281,6 +285,27 @@ def _chosen(found: Element, at: str) -> ElementContact:
     if at.isdigit() and 1 <= int(at) <= len(contacts):
         return contacts[int(at) - 1]
     raise InputError(f'--at "{at}": allowed: worst, thinnest, path, {marks}or a number from 1 to {len(contacts)}')
+
+
+_FILM_KINDS = ("traction", "point-film", "friction", "running-in", "running-in-life")
+"""Kinds of scene with an oil film."""
+
+
+def _with_steady_film(found: Element, chosen: ElementContact, at: str, kind: str) -> ElementContact:
+    """Return the contact of a scene with a film: the one named by `at`, or the thinnest steady film, with a sentence,
+    where the surfaces of the named one run against each other."""
+    from bem.cli._terminal import print_text
+    from bem.elements.answer import place_words
+
+    if found.model.oil is None or kind not in _FILM_KINDS or abs(chosen.slide_roll_ratio) <= 2:
+        return chosen
+    steady = found.thinnest_steady()
+    if abs(steady.slide_roll_ratio) <= 2:
+        print_text(
+            f"At the place {at} the surfaces run against each other, without a steady film: scene of the thinnest "
+            f"steady film, {place_words(found, steady)}."
+        )
+    return steady
 
 
 def _show(found: Element, chosen: ElementContact, runs: Sequence[Running]) -> None:

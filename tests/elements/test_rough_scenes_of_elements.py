@@ -4,8 +4,10 @@ import math
 import tomllib
 
 import pytest
+from typer.testing import CliRunner
 
 from bem import InputError, load_scene, plan_scene, run_scene
+from bem.cli import build
 from bem.elements.element import KINDS, LIFE, MIXED, MODELS, element_template, load_element
 from bem.elements.model import BOUNDARY_FRICTION
 from bem.elements.rough_scenes import FINISHES, finish_lengths, patch_over
@@ -225,3 +227,16 @@ def test_running_in_wears_summits_over_two_turns_in_stable_steps(name):
     turn = round(shape[0] / abs(scene.wear.shift))
     assert 32 <= turn < 96
     assert (scene.cycles.count, scene.cycles.averaged) == (2 * turn, turn)
+
+
+@pytest.mark.parametrize("place", ["worst", "thinnest"])
+def test_named_places_of_a_cam_without_a_steady_film_give_way_to_the_thinnest_one(place, tmp_path):
+    """Under the nose the surfaces run against each other."""
+    file, scene = tmp_path / "cam.toml", tmp_path / "mixed.toml"
+    file.write_text(element_template("cam-follower"))
+    command = ["element", str(file), "--scene", str(scene), "--kind", "friction", "--at", place]
+    done = CliRunner().invoke(build(), command)
+    assert done.exit_code == 0, done.output
+    assert f"At the place {place} the surfaces run against each other" in done.output
+    steady = load_element(file).thinnest_steady()
+    assert load_scene(scene).speeds.slide_roll_ratio == pytest.approx(steady.slide_roll_ratio, rel=1e-6)
