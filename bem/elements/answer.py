@@ -35,7 +35,7 @@ from bem.elements.running import Running, columns, run_all
 from bem.elements.running import notes as film_notes
 from bem.errors import InputError
 from bem.notes import Note
-from bem.notes.elements import BUSH_CONFORMS, BUSH_FLOATS, BUSH_LEAKS
+from bem.notes.elements import BUSH_BOUNDS, BUSH_CONFORMS, BUSH_FLOATS, BUSH_LEAKS
 from bem.notes.note import has_code, percent, without
 from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import plain_digits, with_unit
@@ -340,11 +340,13 @@ def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...
 def all_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...]:
     """Return the notes on an element, on its answer and on its solved films; `solved` as in `answer`.
 
-    Where the film of a bush is outside the model, the cautions that take it for an estimate or an upper bound are left
-    out.
+    Where the film of a bush is outside the model or between bounds, the weaker cautions that take it for an estimate or
+    an upper bound are left out.
     """
     found = (*element.notes(), *answer_notes(element, solved), *film_notes(solved))
-    return without(found, BUSH_CONFORMS, BUSH_LEAKS) if has_code(found, BUSH_FLOATS) else found
+    if has_code(found, BUSH_FLOATS):
+        return without(found, BUSH_CONFORMS, BUSH_LEAKS)
+    return without(found, BUSH_LEAKS) if has_code(found, BUSH_BOUNDS) else found
 
 
 def table_columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]:

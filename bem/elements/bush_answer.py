@@ -18,6 +18,7 @@ from bem.elements.plain_bush import (
 )
 from bem.notes import Note
 from bem.notes.elements import (
+    BUSH_BOUNDS,
     BUSH_FLOATS,
     BUSH_LIQUID_LOST,
     BUSH_OVER_LIMIT,
@@ -39,6 +40,10 @@ THICK = 0.1
 """Film over the radial clearance from which the oil carries the shaft as in a journal bearing. There, at L/D = 0.8, the
 film of an endless line is 1.9 times as thick as that of `reference_solutions.journal_bearing`, which is itself up to
 12 % too thick."""
+BOUNDED = 1 / 30
+"""Film over the radial clearance from which the film of a journal bearing stands beside it as its lower bound: of the
+rigid endless cylinder's load (Martin's film, dp/dx = 0 at the outlet) 8 % is then carried beyond 45 degrees before the
+load line, where the gap of shaft and bush is no parabola and liquid leaves at the ends; of a film of c/100 2.6 %."""
 
 
 @dataclass(frozen=True)
@@ -78,9 +83,17 @@ def pressure_words(model: PlainBushModel) -> str:
 
 
 def journal_of(model: PlainBushModel, film: FilmOfBush) -> JournalFilm | None:
-    """Return the estimated film of a journal bearing in place of a film too thick for the model; None of a thin one."""
+    """Return the estimated film of a journal bearing beside a film that reaches far around; None of a thin one."""
+    return journal_beside(model, film.thickness)
+
+
+def journal_beside(model: PlainBushModel, thickness: float) -> JournalFilm | None:
+    """Return the estimated film of a rigid journal bearing of the bush's length; None beside a thin film.
+
+    thickness : of the film of the equivalent cylinder [m].
+    """
     oil = model.film_oil
-    if oil is None or film.thickness < THICK * model.radial_clearance:
+    if oil is None or thickness < BOUNDED * model.radial_clearance:
         return None
     return journal_film(
         load=model.radial_load,
@@ -93,18 +106,25 @@ def journal_of(model: PlainBushModel, film: FilmOfBush) -> JournalFilm | None:
 
 
 def thick_film_words(model: PlainBushModel, film: FilmOfBush) -> str | None:
-    """Return lambda ratio and film in words where the film is too thick for the model; None of a thin one."""
+    """Return lambda ratio and film in words where a journal bearing's film stands beside it; None of a thin one."""
     journal = journal_of(model, film)
     if journal is None:
         return None
-    said = (
-        f"minimum film about {si(film.thickness, 'm', 2)} as of an endless cylinder on a flat, about "
-        f"{si(journal.minimum_thickness, 'm', 2)} by an estimate as a journal bearing of this length"
-    )
+    said = bounds_words(film.thickness, journal)
     if model.rms_roughness is None:
         return f"not known: give rms_roughness, of both surfaces together; {said}"
-    ratios = (one / model.rms_roughness for one in (film.thickness, journal.minimum_thickness))
-    return f"outside the model, about {' or '.join(f'{one:.2g}' for one in ratios)}: {said}"
+    low, high = (f"{one / model.rms_roughness:.2g}" for one in (journal.minimum_thickness, film.thickness))
+    if film.thickness < THICK * model.radial_clearance:
+        return f"between about {low} and {high}: {said}"
+    return f"outside the model, about {high} or {low}: {said}"
+
+
+def bounds_words(thickness: float, journal: JournalFilm) -> str:
+    """Return the films of the equivalent cylinder, of a thickness [m], and of the journal bearing in words."""
+    return (
+        f"minimum film about {si(thickness, 'm', 2)} as of an endless cylinder on a flat, about "
+        f"{si(journal.minimum_thickness, 'm', 2)} by an estimate as a rigid journal bearing of this length"
+    )
 
 
 def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[float | None, str]:
@@ -176,8 +196,9 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
         notes.append(BUSH_WEARS_IN_FILM(share=film.asperity_share))
     journal = None if film is None else journal_of(model, film)
     if film is not None and journal is not None:
+        floats = film.thickness >= THICK * model.radial_clearance
         notes.append(
-            BUSH_FLOATS(
+            (BUSH_FLOATS if floats else BUSH_BOUNDS)(
                 share=film.thickness / model.radial_clearance,
                 film=film.thickness,
                 journal=journal.minimum_thickness,

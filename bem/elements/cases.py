@@ -38,7 +38,7 @@ from bem.scenes.values import plain_value
 _LOADS = ("radial_load", "torque")
 """Keys that hertz_pressure stands in place of."""
 JOURNAL = "journal_bearing_film_estimate [m]"
-"""Column of the estimated film of a journal bearing in place of a film too thick for the model."""
+"""Column of the estimated film of a rigid journal bearing: the lower bound beside a film that reaches far around."""
 
 
 def load_cases(source: str | Path, rows: str | Path) -> tuple[Element, ...]:

@@ -16,7 +16,7 @@ from types import MappingProxyType
 from typing import Any
 
 from bem.arguments import read_small
-from bem.elements.bush_answer import bush_temperature, friction_power_of
+from bem.elements.bush_answer import bounds_words, bush_temperature, friction_power_of, journal_beside
 from bem.elements.bush_friction import SharedFriction, shared_friction
 from bem.elements.cam_follower import CamModel
 from bem.elements.contact import WIDE, ElementContact
@@ -409,8 +409,18 @@ class Element:
         if kind == LIFE and self.found.passes[0]:
             count = film["life"]["count"]
             more.append(f"{count} cycles, passes of body 1, take {count / self.found.passes[0] / 3600:.2g} h")
+        if isinstance(self.model, PlainBushModel) and kind in ("traction", *MIXED, LIFE):
+            more = [*more, *self._film_bounds(self.model, contact)]
         base["description"] = "; ".join([base["description"], *more])
         return base | film
+
+    def _film_bounds(self, bush: PlainBushModel, contact: ElementContact) -> list[str]:
+        """Return the bounds of a film in words, by the film formula, where a scene of a bush takes it too thick."""
+        thickness = contact.minimum_film(self._patch_modulus, self._film_oil().build())
+        journal = journal_beside(bush, thickness)
+        if journal is None:
+            return []
+        return [f"the film of this scene is an upper bound, too thick: {bounds_words(thickness, journal)}"]
 
     def shared_friction(self, contact: ElementContact) -> SharedFriction | None:
         """Solve the load sharing of one contact of a bush between its film and a ground shaft of the given roughness.

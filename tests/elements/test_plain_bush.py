@@ -22,6 +22,7 @@ from bem.elements.running import run_all
 from bem.notes import Level
 from bem.notes.checks import CAP_NOT_OF_SOFTER, CYLINDER_NARROW, HARDNESS_UNLIKELY, SLOPES_LARGE
 from bem.notes.elements import (
+    BUSH_BOUNDS,
     BUSH_CONFORMS,
     BUSH_FLOATS,
     BUSH_GLYCOL,
@@ -253,6 +254,37 @@ def test_a_film_as_thick_as_that_of_a_journal_bearing_is_outside_the_model():
     assert math.isnan(estimates[1])
     assert "journal_bearing_film_estimate [m]" not in columns([thin], [films])
     assert BUSH_LEAKS.code in codes(all_notes(thin, films))
+
+
+def test_a_film_that_reaches_far_around_stands_between_two_bounds():
+    """Between c/30 and c/10 the journal bearing's film is the lower bound: answer, cases, note and written scenes."""
+    table = without(WATER, "shaft_diameter") | {
+        "bore": "30 mm", "clearance": "80 um", "length": "25 mm", "wall": "2.5 mm", "radial_load": "1.2 kN",
+        "speed": "150 rpm", "second": "pa66", "rms_roughness": "0.3 um", "thermal": "off",
+        "oil": {"grade": "ISO VG 46", "temperature": "50 degC"},
+    }  # fmt: skip
+    element = load_element(table)
+    runs = run_all(element)
+    found = all_notes(element, runs)
+    (note,) = [note for note in found if note.code == BUSH_BOUNDS.code]
+    journal = journal_film(
+        load=1200, radius=15e-3, clearance=40e-6, length=25e-3, viscosity=element.model.film_oil.build().viscosity,
+        sliding_speed=element.model.sliding_speed,
+    )  # fmt: skip
+    assert note.values["journal"] == pytest.approx(journal.minimum_thickness, rel=1e-9, abs=0)
+    assert note.values["journal"] < 0.5 * note.values["film"] == 0.5 * runs[0].minimum_film
+    assert note.values["turning"] > note.values["friction"]
+    assert not {BUSH_FLOATS.code, BUSH_LEAKS.code} & set(codes(found))
+    low, high = (f"{note.values[name] / 0.3e-6:.2g}" for name in ("journal", "film"))
+    assert dict(answer(element, runs))["lambda ratio"].startswith(f"between about {low} and {high}: minimum film")
+    assert columns([element], [runs])["journal_bearing_film_estimate [m]"] == [note.values["journal"]]
+    for kind in ("traction", "friction"):
+        about = element.scene(element.found.contacts[0], kind)["description"]
+        assert "upper bound" in about
+        assert "rigid journal bearing" in about
+    assert (
+        "upper bound" not in load_element(WATER).scene(load_element(WATER).found.contacts[0], "traction")["description"]
+    )
 
 
 def test_a_film_outside_the_model_has_no_weaker_cautions(tmp_path):
