@@ -428,11 +428,14 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
 
 def print_lists(summary: Mapping[str, Any], names: Sequence[str]) -> None:
     """Print the named figures that are lists, as tables with a row for each case."""
-    from bem.plots.tables import MOST_COLUMNS, figure_tables
+    from bem.plots.tables import MOST_COLUMNS, ends_of_paths, figure_tables, mean_power_of_paths
 
     most = sys.maxsize if sys.stdout.isatty() else MOST_COLUMNS
     for item in figure_tables(summary, names, columns=most):
-        table(item.head, item.rows, title=item.title, leading=item.leading)
+        short = ends_of_paths(summary, item)
+        table(short.head, short.rows, title=short.title, leading=short.leading)
+    if (means := mean_power_of_paths(summary)) is not None:
+        table(means.head, means.rows, title=means.title, leading=means.leading)
 
 
 def print_points(figures: Mapping[str, Any]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -356,6 +356,61 @@ def figure_tables(
             further = [case for case in value if any(summary.get(key) != case[key] for key in case)]
             found += _cases(name_and_unit(name)[0], further, known, columns)
     return found
+
+
+MOST_ROWS_OF_PATHS = 60
+"""Rows of several paths of contact from which on the terminal shows the ends of each and its pitch point alone."""
+
+
+def ends_of_paths(summary: Mapping[str, Any], item: FigureTable) -> FigureTable:
+    """Return a long table over several paths of contact with three rows a path: both ends, and the place nearest to C.
+
+    A table of one path, of few rows, or of other cases than places is returned as it is.
+    """
+    paths = _paths(summary)
+    if len(paths) < 2 or len(item.rows) != paths[-1][-1] + 1 or len(item.rows) <= MOST_ROWS_OF_PATHS:
+        return item
+    place = summary["position_m"]
+    shown = [
+        row for path in paths for row in dict.fromkeys((path[0], min(path, key=lambda i: abs(place[i])), path[-1]))
+    ]
+    title = (
+        f"both ends of each path and the place nearest to C: {len(shown)} of {len(item.rows)} rows, all in the report"
+    )
+    return replace(item, title=title, rows=tuple(item.rows[row] for row in shown))
+
+
+def mean_power_of_paths(summary: Mapping[str, Any]) -> FigureTable | None:
+    """Return a row for each of several paths of contact with the mean friction power along it, by the trapezoidal rule.
+
+    None for other summaries.
+    """
+    paths, power = _paths(summary), summary.get("friction_power_W")
+    over = varied_keys(summary)
+    if len(paths) < 2 or not isinstance(power, list) or any(not is_list(summary.get(key)) for key in over):
+        return None
+    keys = [key for key in over if key != "position_m"]
+    place, rows = summary["position_m"], []
+    for path in paths:
+        at, values = [place[i] for i in path], [power[i] for i in path]
+        if any(value is None for value in values):
+            return None
+        mean = float(np.trapezoid(values, at)) / (at[-1] - at[0])
+        rows.append((*(f"{summary[key][path[0]]}" for key in keys), f"{mean:.4g}"))
+    return FigureTable("", (*keys, "friction power, mean along the path (W)"), tuple(rows), len(keys))
+
+
+def _paths(summary: Mapping[str, Any]) -> list[list[int]]:
+    """Return the entries of each path of contact: a path ends where the position falls; none without positions."""
+    place = summary.get("position_m")
+    if not isinstance(place, list) or any(not isinstance(one, int | float) for one in place):
+        return []
+    found: list[list[int]] = []
+    for i, value in enumerate(place):
+        if not found or value <= place[i - 1]:
+            found.append([])
+        found[-1].append(i)
+    return [path for path in found if len(path) > 2]
 
 
 def summary_of_points(
