@@ -60,11 +60,21 @@ FROM_START = ("friction_initial", "contact_load_initial", "Sq_initial")
 """Figures before any wear."""
 _OF_CONTACT = ("boundary_friction_part", "contact_load", "contact_area_fraction")
 _OF_FRICTION = ("friction_run_in", "friction")
+BY_LOAD = "wear_volume"
+"""Volume worn by a law of pressure and distance, V = k F s (Archard 1953): it has the error of the load F, where the
+depth within the contact region has that of the heights. Volumes of pieces have no row: they follow the depth."""
 MIXED_RULES = Table(
     "running_in_error_bars",
     rows(" ".join(FROM_START), 0.8, "As load sharing, before any wear.", figure=0.0002),
     rows(" ".join(_OF_FRICTION), 1.2, "First order, as wear, which passes load.", order=1, figure=0.0005, passed=0.8),
     rows(" ".join(_OF_CONTACT), 1.2, "First order, as wear, which passes load.", order=1, passed=0.8),
+    rows(
+        BY_LOAD,
+        1.2,
+        "Of a law by pressure and distance: proportional to the contact load, and as wrong.",
+        order=1,
+        passed=0.8,
+    ),
     rows(
         "film_load minimum_film film_friction_part",
         1.0,

@@ -23,7 +23,7 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
     """Estimate errors from the loop on every second cell and half the points of the film, columns and layers of full
     heat, cells of lumped heat; where half are too few for a film, of that loop with twice the points besides."""
     from bem.accuracy import running_in_bars
-    from bem.accuracy.wear import MIXED_RULES
+    from bem.accuracy.wear import BY_LOAD, MIXED_RULES
 
     def finer(scene: RunningInScene, factor: float, across: float) -> RunningInScene:
         coarser = at_resolution(scene, factor, across)
@@ -35,7 +35,8 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
     if there is not None and not wearing.film_is_halved(scene):
         finer_film = coarser(finer)
         there = None if finer_film is None else there
-    known = [name for name in MIXED_RULES if getattr(found, name) is not None]
+    by_load = volume_follows_load(scene)
+    known = [name for name in MIXED_RULES if getattr(found, name) is not None and (by_load or name != BY_LOAD)]
     # of temperatures the rise
     cool = dict.fromkeys(TEMPERATURES, scene.oil.temperature or 0.0)
 
@@ -48,10 +49,19 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
     if found.minimum_film > 0:
         to_ratio = found.lambda_ratio_mixed / found.minimum_film
         bars |= bars.renamed({"minimum_film": "lambda_ratio_mixed"}, lambda error: to_ratio * error)
-    if found.worn_depth > 0:  # the volume follows the depth: its relative error is that of the mean depth
+    if found.worn_depth > 0 and not by_load:  # the volume follows the depth: it has the mean depth's relative error
         to_volume = found.wear_volume / found.worn_depth
-        bars |= bars.renamed({"worn_depth": "wear_volume"}, lambda error: to_volume * error)
+        bars |= bars.renamed({"worn_depth": BY_LOAD}, lambda error: to_volume * error)
     return bars if there is None else bars | _of_heights(scene, found)
+
+
+def volume_follows_load(scene: RunningInScene) -> bool:
+    """Return True if the worn volume is that of Archard's law for the contact load.
+
+    It is not of pieces, of cuts by third bodies, nor under a boundary film, whose defects follow the temperature.
+    """
+    wear = scene.wear
+    return wear.criterion.wears_by_pressure and wear.film_defect is None and wear.third_bodies is None
 
 
 def _of_heights(scene: RunningInScene, found: RunningInRecord) -> ErrorBars:
