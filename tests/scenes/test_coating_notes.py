@@ -81,3 +81,8 @@ def test_refusals_say_that_a_table_of_constants_is_allowed_and_what_is_not_given
         plan_scene("coated-sphere", ['lower.material="tool-steel"'])
     with pytest.raises(InputError, match="none of correlation_length, hurst is given"):
         plan_scene("coated-sphere", ['lower.surface={kind="generated",rms_height="10 nm"}'])
+
+
+def test_a_list_of_another_length_says_what_its_values_are():
+    with pytest.raises(InputError, match=r"3 values; allowed: 2 \(The two times between which the wear depth"):
+        plan_scene("tribofilm-ball", ['rubbing.report=["1 h","2 h","3 h"]'])
