@@ -129,8 +129,7 @@ PURE_ROLLING = define(
             "For a Stribeck curve set speeds.slide_roll_ratio, such as 0.02.",
         ),
         "wear": Reason(
-            "The slide-to-roll ratio is {ratio:.2g}: without friction no number of cycles wears surfaces that their "
-            "pressure alone leaves whole.",
+            "The slide-to-roll ratio is {ratio:.2g}: friction takes nothing off, in any number of cycles.",
             "For running-in set speeds.slide_roll_ratio, such as 0.02.",
         ),
     },

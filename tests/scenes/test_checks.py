@@ -863,6 +863,10 @@ def test_running_in_tells_of_particles_of_one_cell_by_their_mean():
     assert list(check(facts, Outcome({"number_mean_radius_nm": [400.0]}, {}))) == []
 
 
+WORN = ('wear.criterion={kind="archard", specific_wear_rate=1e-16, distance=0.1}', "wear.particle_criterion=von_mises")
+"""Settings of wear by a rate, which changes the surfaces without particles."""
+
+
 @pytest.mark.internal
 @pytest.mark.parametrize(
     ("changes", "summary", "words", "action"),
@@ -870,6 +874,7 @@ def test_running_in_tells_of_particles_of_one_cell_by_their_mean():
         (("speeds.slide_roll_ratio=0",), {}, "roll without sliding", "Set speeds.slide_roll_ratio"),
         (("speeds.slide_roll_ratio=0.5",), {"friction_first_turn": [0.05]}, "repeats the one before", "Raise load or"),
         (("speeds.slide_roll_ratio=0.5",), {}, "", "cycles.count"),
+        ((*WORN, "speeds.slide_roll_ratio=0.5"), {"friction_first_turn": [0.05]}, "", "cycles.count"),
     ],
 )
 def test_more_cycles_are_advised_only_where_they_may_change_something(changes, summary, words, action):

@@ -408,17 +408,21 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[Note]:
             beside = _beside_strength(case, float(stress))
             law = case.wear.finds_particles.name
             note = partial(NOTHING_CAME_OFF, case.label, law=law, takes=takes, beside=beside)
-            if (ratio := pure_rolling(facts)) is not None:
+            ratio = pure_rolling(facts)
+            if _cycles_differ(case):
+                yield note(reason="weak")
+            elif ratio is not None:
                 yield note(ratio=ratio, reason="rolls")
             else:
-                yield note(reason="repeats" if turned and not _remembers(case) else "weak")
+                yield note(reason="repeats" if turned else "weak")
 
 
-def _remembers(case: Case) -> bool:
-    """Return True if the criterion adds up damage, so that cycles of which nothing comes off differ."""
+def _cycles_differ(case: Case) -> bool:
+    """Return True if cycles without particles differ: the criterion adds up damage, or surfaces wear by a rate."""
     from bem.wear.criterion import LowCycleFatigue
 
-    return case.wear is not None and isinstance(case.wear.criterion, LowCycleFatigue)
+    law = None if case.wear is None else case.wear.criterion
+    return law is not None and (law.wears_by_pressure or isinstance(law, LowCycleFatigue))
 
 
 def _beside_strength(case: Case, stress: float) -> str:
