@@ -120,7 +120,7 @@ def test_water_is_an_oil_that_a_scene_takes():
 
 def test_a_water_glycol_runs_with_the_coefficient_that_its_message_names():
     oil = ("oil.grade=water-glycol 46", "oil.temperature=40 degC")
-    with pytest.raises(InputError, match="4 to 6 1/GPa are usual") as error:
+    with pytest.raises(InputError, match="3 to 6 1/GPa are usual") as error:
         load_scene("starved-roller", ["thermal=off", *oil])
     key, value = re.search(r'(pressure_viscosity) = "([^"]+)"', str(error.value)).groups()
     assert load_scene("starved-roller", ["thermal=off", *oil, f"oil.{key}={value}"]).oil.build().viscosity > 0

@@ -23,7 +23,13 @@ from bem.elements.contact import WIDE, ElementContact
 from bem.elements.gear_pair import GearModel
 from bem.elements.model import Contacts, ElementModel, HeatBalanceScene
 from bem.elements.piston_ring import PistonRingModel
-from bem.elements.plain_bush import HOUSING, PlainBushModel, with_pressure_viscosity, with_temperature
+from bem.elements.plain_bush import (
+    HOUSING,
+    PlainBushModel,
+    has_assumed_coefficient,
+    with_pressure_viscosity,
+    with_temperature,
+)
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.rough_scenes import (
     bush_rubbing_scene,
@@ -38,7 +44,14 @@ from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
 from bem.notes.checks import SLOPES_LARGE, YIELDS
-from bem.notes.elements import NO_HEAT, OIL_FOLLOWS_BALANCE, SPEED_IN_TURNS, SPEED_WITHOUT_UNIT, SURFACES_TOUCH
+from bem.notes.elements import (
+    GLYCOL_ASSUMED,
+    NO_HEAT,
+    OIL_FOLLOWS_BALANCE,
+    SPEED_IN_TURNS,
+    SPEED_WITHOUT_UNIT,
+    SURFACES_TOUCH,
+)
 from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import with_unit
 from bem.scenes.checks.hertz import smooth_contact
@@ -312,6 +325,8 @@ class Element:
             notes.append(unused)
         if (bare := self.speed_note()) is not None:
             notes.append(bare)
+        if not isinstance(self.model, PlainBushModel) and has_assumed_coefficient(self.model.oil):
+            notes.append(GLYCOL_ASSUMED(reason="rolling"))
         wide = [one.name for one in self.found.contacts if one.is_wide(self.modulus)]
         if wide and not isinstance(self.model, PlainBushModel):  # a bush is solved as round as it is
             others = f" and {len(wide) - 1} more place{'s' if len(wide) > 2 else ''}" if len(wide) > 1 else ""
@@ -600,8 +615,7 @@ def load_element(source: str | Path | Mapping[str, Any]) -> Element:
         found = show(table.get("element"))
         raise InputError(f"element = {found}: not allowed{nearest(kind, MODELS)}; allowed: {listed}")
     if isinstance(table.get("oil"), Mapping):
-        oil = with_pressure_viscosity(table["oil"]) if kind == "plain-bush" else table["oil"]
-        table["oil"] = with_temperature(oil, table)
+        table["oil"] = with_temperature(with_pressure_viscosity(table["oil"]), table)
     try:
         return Element(validate(table, MODELS[kind]), table)
     except InputError as error:  # what is wrong with the whole is said of the element

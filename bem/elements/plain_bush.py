@@ -24,9 +24,10 @@ from bem.elements.model import Contacts, ElementModel
 from bem.lubrication.oils.catalogue import find_oil
 from bem.materials import CATALOGUE, Material
 from bem.notes import Note
-from bem.notes.elements import BUSH_CONFORMS, BUSH_GLYCOL, BUSH_LEAKS, BUSH_SWINGS
+from bem.notes.elements import BUSH_CONFORMS, BUSH_LEAKS, BUSH_SWINGS, GLYCOL_ASSUMED
 from bem.physical_constants import ROOM_TEMPERATURE
 from bem.scenes.common import MaterialScene, PositiveLength, Table, problem
+from bem.scenes.oil import OilScene
 from bem.scenes.units import Angle, Dimension, Force, Rate, Ratio, RotationSpeed, Temperature
 
 HOUSING = "steel-52100"
@@ -41,8 +42,13 @@ LONG = 5.0
 was solved. What leaks is of the order of the square of width over length."""
 LARGEST_WEAR_RATE = 1e-10
 """Wear rate [m^2/N], 0.1 mm^3/(N m), beyond which the unit is missing; worn-out bushes have 1e-3 mm^3/(N m)."""
-GLYCOL = 5e-9
-"""Pressure-viscosity coefficient of water-glycol [1/Pa], the middle of the usual 4 to 6 1/GPa; not measured."""
+GLYCOL = 3e-9
+"""Pressure-viscosity coefficient of water-glycol [1/Pa] where none is given, not measured by this program's sources.
+
+Films of polyglycol solutions in rolling point contacts were about a third of those of mineral oils of their viscosity
+(G. T. Y. Wan, P. Kenny & H. A. Spikes, Tribology International 17 (1984) 309; abstract read, pages not checked), and
+thicknesses go with the power 0.49 to 0.54 of the coefficient: an eighth of 22 1/GPa. Up to 6 1/GPa is quoted, too.
+"""
 POLYMER = 20e9
 """Young's modulus [Pa] below which a bush is taken for a polymer; unfilled ones have up to 5 GPa, soft metals 15."""
 WATERY = 4000.0
@@ -281,18 +287,24 @@ class PlainBushModel(ElementModel):
         slender = self.length / (2 * self.cylinder.half_angle * self.bodies.cylinder.radius)
         if self.oil is not None and slender < LONG:
             notes.append(BUSH_LEAKS(ratio=slender))
-        coefficient = None if self.oil is None else self.oil.pressure_viscosity
-        if self.oil is not None and self.oil.grade is not None and coefficient == GLYCOL:
-            notes.append(BUSH_GLYCOL(change=math.expm1(coefficient * self.shaft_contact.maximum_pressure)))
+        if has_assumed_coefficient(self.oil):
+            change = math.expm1(GLYCOL * self.shaft_contact.maximum_pressure)
+            notes.append(GLYCOL_ASSUMED(change=change, reason="bush"))
         if self.oscillation is not None and self.oil is not None:
             notes.append(BUSH_SWINGS())
         return tuple(notes)
 
 
+def has_assumed_coefficient(oil: OilScene | None) -> bool:
+    """Return True if an oil is a water-glycol with the coefficient `GLYCOL`."""
+    return oil is not None and oil.grade is not None and oil.pressure_viscosity == GLYCOL
+
+
 def with_pressure_viscosity(oil: Mapping[str, Any]) -> Mapping[str, Any]:
     """Return a table of an oil, of water-glycol with `GLYCOL` where it has no pressure-viscosity coefficient.
 
-    The pressures of bushes raise its viscosity by a few per cent at most.
+    The pressures of bushes raise its viscosity by a few per cent at most. Films of rolling contacts have thicknesses
+    that go with its power 0.54 (Dowson and Higginson).
     """
     glycol = str(oil.get("grade", "")).lower().startswith("water-glycol")
     if not glycol or oil.get("pressure_viscosity") is not None:

@@ -248,12 +248,17 @@ BUSH_WEARS_IN_FILM = define(
     "Asperities have {share:.1%} of the load.",
     "Take the specific wear rate of starts and stops, or of a test in this lubricant at this lambda ratio.",
 )
-BUSH_GLYCOL = define(
-    "bush-glycol",
+GLYCOL_ASSUMED = define(
+    "glycol-assumed",
     CAUTION,
-    "The pressure-viscosity coefficient of water-glycol is 5 1/GPa, not measured.",
-    "4 to 6 1/GPa are usual; the peak pressure raises the viscosity by {change:.1%}.",
+    "The pressure-viscosity coefficient of water-glycol is 3 1/GPa, not measured.",
+    "",
     "Give oil.pressure_viscosity if you know it.",
+    reasons={
+        "bush": "3 to 6 1/GPa are usual; the peak pressure raises the viscosity by {change:.1%}.",
+        "rolling": "It gives films of a third of a mineral oil's, as measured (Wan, Kenny and Spikes 1984, abstract); "
+        "3 to 6 1/GPa are usual, and films are up to 45 % thicker with 6 1/GPa.",
+    },
 )
 BUSH_LEAKS = define(
     "bush-leaks",

@@ -13,8 +13,9 @@ from bem.elements.element import element_template, load_element
 from bem.elements.rolling_bearing import BearingModel, _centrifugal, load_integral, share
 from bem.elements.running import Running
 from bem.errors import Status
-from bem.notes import Level
+from bem.notes import Level, has_code
 from bem.notes.checks import SLOPES_LARGE
+from bem.notes.elements import GLYCOL_ASSUMED
 from bem.notes.general import VALUE_UNUSUAL
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -234,3 +235,14 @@ def test_the_hertz_pressure_of_tilted_rollers_is_the_highest_on_the_inner_ring(p
     for element in (even, tilted):
         assert element.worst().hertz(element.modulus).maximum_pressure == pytest.approx(1.2e9, rel=1e-6)
     assert tilted.model.load < even.model.load
+
+
+@pytest.mark.internal
+def test_water_glycol_has_a_stated_coefficient_and_thinner_films_than_mineral_oil():
+    """About a third of the film of a mineral oil of its viscosity, as of polyglycol solutions (Wan et al. 1984)."""
+    films = {}
+    for grade in ("water-glycol 46", "ISO VG 46"):
+        element = load_element(BALLS | {"oil": {"grade": grade, "temperature": "40 degC"}})
+        films[grade] = element.columns()["minimum_film [m]"][0]
+        assert has_code(element.notes(), GLYCOL_ASSUMED) is (grade != "ISO VG 46")
+    assert films["water-glycol 46"] == pytest.approx(films["ISO VG 46"] / 3, rel=0.15, abs=0)

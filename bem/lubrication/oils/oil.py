@@ -30,8 +30,8 @@ measured are good from 10 to 130."""
 
 USUAL_PRESSURE_VISCOSITY = {
     "water-glycol": (
-        'such as pressure_viscosity = "5 1/GPa": 4 to 6 1/GPa are usual, about a quarter of that of a mineral oil '
-        "(order of magnitude; not checked against a measurement)"
+        'such as pressure_viscosity = "3 1/GPa": 3 to 6 1/GPa are usual, about a fifth of that of a mineral oil '
+        "(order of magnitude, from films a third as thick as a mineral oil's)"
     )
 }
 """Usual coefficients of bases that the catalogue has none of, in words."""
