@@ -88,7 +88,12 @@ def test_the_whole_gear_pair(gears):
     assert f"pinion {max(depths) * 1e6 * 2250 * 60:.3g} um" in said["wear per hour"]
     assert "give mean_particle_volume" in said["worn volume per hour"]
     assert "mixed lubrication" in said["lambda ratio"]
-    assert len(columns(element, runs)["friction_power [W]"]) == 5
+    found = columns(element, runs)
+    assert len(found["friction_power [W]"]) == 5
+    slid = [abs(one.friction) * one.contact.load * abs(one.contact.speeds[0] - one.contact.speeds[1]) for one in runs]
+    both = zip(found["friction_power [W]"], found["rolling_loss [W]"], strict=True)
+    assert [power - rolling for power, rolling in both] == pytest.approx(slid, rel=0.05, abs=0.1)
+    assert found["rolling_loss [W]"][2] == pytest.approx(found["friction_power [W]"][2])  # at C nothing slides
 
 
 @pytest.mark.internal
