@@ -53,6 +53,9 @@ SURFACE = (
     6.0,
     10.0,
 )
+ACROSS = (0.0, 0.25, 0.5, 0.75, 0.825, 0.9, 1.025, 1.1, 1.25, 1.5, 1.875, 2.0, 2.125, 2.175, 3.0)
+"""Distances from the axis on interfaces, with those of the highest stresses of a stiff layer on a soft one: shear
+(0.825 and 1.025), tension along (1.875) and tension across the interfaces (2.125 and 2.175)."""
 
 
 def _profile(pressure: str, radius: Any) -> Any:
@@ -204,9 +207,8 @@ def _curves(solution: Solution, harmonic: int, thicknesses: Sequence[float]) -> 
             (-1.2, 0.5, "depth at x = -1.2, y = 0.5"),
         ):
             lines.append((name + label, np.array([[x, y, z] for z in levels]), side))
-    across = np.array([0.0, 0.25, 0.5, 0.75, 0.9, 1.1, 1.25, 1.5, 2.0, 3.0])
     for words, side, depth in interfaces(thicknesses):
-        lines.append((f"{words}, y = 0 ({side})", np.array([[x, 0.0, depth] for x in across]), side))
+        lines.append((f"{words}, y = 0 ({side})", np.array([[x, 0.0, depth] for x in ACROSS]), side))
     for along, points, side in lines:
         _, stress = evaluate(solution, off_mesh_lines(points, thicknesses), harmonic, side or None)
         on_axis = {"stress_xz"} if harmonic else {"stress_xx", "stress_yy", "stress_zz"}
