@@ -37,6 +37,7 @@ from bem.scenes.common import (
 from bem.scenes.keys import key
 from bem.scenes.laws import LawOrNumber
 from bem.scenes.oil import OilScene
+from bem.scenes.ranges import parse_axis
 from bem.scenes.records import Figure
 from bem.scenes.tables.smooth import SmoothShapeScene
 from bem.scenes.tables.supply import SupplyScene, build_supply, check_layer
@@ -59,7 +60,8 @@ class SpeedsScene(Table):
     """
 
     values: Annotated[list[Speed], Field(min_length=1, max_length=512)] | None = key(
-        "Speeds of the lower body (flat), one by one; instead of first, last and count.",
+        'Speeds of the lower body (flat), one by one or as a range such as "log:0.1 m/s:1 m/s:8"; instead of first, '
+        "last and count.",
         "basic",
         default=None,
         example=["0.1 m/s", "1 m/s"],
@@ -87,13 +89,11 @@ class SpeedsScene(Table):
     def _from_list(cls, data: Any) -> Any:
         if isinstance(data, int | float | str):
             data = [data]
-        if isinstance(data, dict) and isinstance(data.get("values"), str):
-            raise problem(
-                f'values = "{data["values"][:60]}" is not a list',
-                f'a list, ["{data["values"][:60]}"], or first, last and count: speeds in equal ratios, as on a '
-                "logarithmic axis",
-            )
-        return {"values": data} if isinstance(data, list | tuple) else data
+        if isinstance(data, list | tuple):
+            data = {"values": data}
+        if isinstance(data, dict) and isinstance(data.get("values"), list | tuple | str):
+            return data | {"values": _listed_speeds(data["values"])}
+        return data
 
     @model_validator(mode="after")
     def _complete(self) -> SpeedsScene:
@@ -132,6 +132,30 @@ class SpeedsScene(Table):
     def other_over_flat(self) -> float:
         """Speed of the cylinder or ball over the flat's."""
         return float(speed_ratio(self.cylinder, self.slide_roll_ratio))
+
+
+def _listed_speeds(given: list[Any] | tuple[Any, ...] | str) -> list[Any]:
+    """Return the speeds of the key `values`, with texts of ranges such as "log:1 m/s:5 m/s:8" written out.
+
+    Raises
+    ------
+    PydanticCustomError : a text that is no range or list of values, see `bem.scenes.ranges.parse_axis`.
+    """
+    found: list[Any] = []
+    for entry in [given] if isinstance(given, str) else given:
+        if not isinstance(entry, str) or not (isinstance(given, str) or ":" in entry):
+            found.append(entry)
+            continue
+        try:
+            found += parse_axis(f"values={entry}").values
+        except InputError as error:
+            why = error.messages[0].partition(": ")[2].partition("; allowed")[0]
+            raise problem(
+                f'values = "{entry[:60]}" {why}',
+                'a list such as ["0.1 m/s", "1 m/s"], a range such as "log:0.1 m/s:1 m/s:8" (equal ratios) or '
+                '"0.1 m/s:1 m/s:8" (equal steps), or first, last and count',
+            ) from None
+    return found
 
 
 def speed_ratio(cylinder: Any, slip: float | None) -> Any:

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from pydantic import ValidationError
 from small_scenes import PATCH
 
 from bem.campaigns import campaign_of, compute
@@ -24,6 +25,7 @@ from bem.materials import CATALOGUE, Body
 from bem.plots.tables import figure_tables
 from bem.runs import plan_scene
 from bem.scenes.context import notes_over
+from bem.scenes.lubrication import SpeedsScene
 from bem.surfaces import generate_surface
 from bem.wear.mixed import MixedContact
 
@@ -425,6 +427,17 @@ def test_bad_input_is_one_message(tables, words):
     assert len(caught.value.messages) == 1
     assert words in str(caught.value)
     assert "allowed" in str(caught.value)
+
+
+def test_speeds_may_be_ranges_as_in_sweeps():
+    """A text or an entry of the list, in equal ratios or equal steps; what is no range is refused with an example."""
+    ratios = pytest.approx([0.005 * 400 ** (i / 7) for i in range(8)], rel=1e-9, abs=0)
+    for given in ({"values": "log:5 mm/s:2 m/s:8"}, {"values": ["log:5 mm/s:2 m/s:8"]}, ["log:5 mm/s:2 m/s:8"]):
+        assert SpeedsScene.model_validate(given).values == ratios
+    steps = {"values": ["1 mm/s", "1 m/s:3 m/s:3"]}
+    assert SpeedsScene.model_validate(steps).values == pytest.approx([1e-3, 1, 2, 3])
+    with pytest.raises(ValidationError, match=r"count '8x' .*log:0\.1 m/s:1 m/s:8"):
+        SpeedsScene.model_validate({"values": "log:5 mm/s:2 m/s:8x"})
 
 
 def test_film_grid_must_reach_the_inlet():
