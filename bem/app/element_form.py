@@ -17,6 +17,7 @@ from bem.elements.answer import PLACES, all_notes, answer, balance_heat, table_c
 from bem.elements.element import MODELS, Element, element_template, load_element
 from bem.elements.figure import element_figure
 from bem.elements.running import Running, run_all
+from bem.elements.scene_text import element_scene_text
 from bem.errors import InputError
 from bem.notes import Level
 from bem.scenes.edit import table_text
@@ -169,7 +170,7 @@ def answered(name: str, typed: Mapping[str, str], *, whole: bool = False) -> Ans
 
 
 def scene_of_form(name: str, typed: Mapping[str, str], kind: str = "traction") -> str:
-    """Return a scene of a filled form.
+    """Return the text of a scene of a filled form, as `bem element --scene` writes it.
 
     kind : "traction", the film along the path of contact or of the most loaded contact, or another kind of
         `bem.elements.element.KINDS` of the contact that `Element.contact_for` gives.
@@ -180,8 +181,9 @@ def scene_of_form(name: str, typed: Mapping[str, str], kind: str = "traction") -
     """
     element = balance_heat(load_element(table_of(name, typed)))
     if kind != "traction":
-        return table_text(element.scene(element.contact_for(kind), kind))
-    return table_text(element.path_scene() if element.found.along_unit == "m" else most_loaded_scene(element))
+        return element_scene_text(element, element.scene(element.contact_for(kind), kind))
+    whole = element.found.along_unit == "m"
+    return element_scene_text(element, element.path_scene() if whole else most_loaded_scene(element))
 
 
 def most_loaded_scene(element: Element) -> dict[str, Any]:

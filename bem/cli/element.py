@@ -83,7 +83,7 @@ def element(
     from bem.elements.element import LIFE, MIXED, load_element
     from bem.elements.figure import draw_element
     from bem.elements.plain_bush import PlainBushModel
-    from bem.elements.scene_text import scene_text
+    from bem.elements.scene_text import element_scene_text
     from bem.errors import InputError
     from bem.notes.elements import SURFACES_TOUCH
     from bem.results.atomic import write_text
@@ -160,7 +160,7 @@ def element(
         draw_element(found, runs, figure)
         print_written(figure)
     if scene is not None and made is not None:
-        write_text(scene, scene_text(made, bulk_estimated=found.bulk_estimated))
+        write_text(scene, element_scene_text(found, made))
         print_written(scene)
         print(f"next:    bem plan {scene}; bem run {scene}")
 

@@ -347,7 +347,7 @@ def ground_shaft(model: PlainBushModel) -> dict[str, Any]:
 
     Grooves of a shaft that is ground as it turns lie along the sliding, x.
     """
-    across, along = _ground_lengths(model)
+    across, along = ground_lengths(model)
     found: dict[str, Any] = {"process": "ground", "lay": "x" if model.lay == "around" else "y"}
     found["rms_height"] = model.rms_roughness
     if model.correlation_length is not None:
@@ -357,11 +357,11 @@ def ground_shaft(model: PlainBushModel) -> dict[str, Any]:
 
 def _bush_lengths(model: PlainBushModel) -> tuple[float, float]:
     """Return the correlation lengths of the shaft along and across the sliding [m]."""
-    across, along = _ground_lengths(model)
+    across, along = ground_lengths(model)
     return (along, across) if model.lay == "around" else (across, along)
 
 
-def _ground_lengths(model: PlainBushModel) -> tuple[float, float]:
+def ground_lengths(model: PlainBushModel) -> tuple[float, float]:
     """Return the correlation lengths across and along the grooves [m]."""
     ground = PROCESSES["ground"]
     assert ground.across is not None

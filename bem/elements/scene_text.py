@@ -4,11 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
+from bem.elements.plain_bush import PlainBushModel
+from bem.elements.rough_scenes import ground_lengths
 from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import si
 from bem.scenes.load import dumped
+
+if TYPE_CHECKING:
+    from bem.elements.element import Element
 
 _DIGITS = 6
 """Digits of written values: the rounding of 1e-6 is far below every error of a model."""
@@ -30,6 +36,7 @@ _UNITS = {
             "distance",
             "lengths",
             "spacing",
+            "position",
             *"ABCDE",
         ),
         "m",
@@ -56,17 +63,44 @@ _FLANKS = "    # of the flanks, estimated with this oil: another oil needs its o
 """Comment on the oil's temperature where it is that of flanks by an estimate."""
 
 
-def scene_text(table: Mapping[str, Any], *, bulk_estimated: bool = False) -> str:
+_THIN_WALL = "    # youngs_modulus: of the half-space on which the contact is as wide as on the wall in its housing"
+"""Comment on the material of a bush with a wall in a film between smooth surfaces."""
+
+
+_GROOVES = (
+    "    # random, of the element's rms_roughness; correlation_length: geometric mean of {across} across the grooves "
+    "(the element's) and {along} along them"
+)
+"""Comment on the ground shaft of a bush with a correlation length of its own."""
+
+
+def element_scene_text(element: Element, table: Mapping[str, Any]) -> str:
+    """Return a scene of an element, a table of `Element.scene` or `Element.path_scene`, as TOML text with comments."""
+    comments = {}
+    bush = element.model
+    if isinstance(bush, PlainBushModel):
+        if isinstance(table["upper"]["material"], Mapping) and bush.wall is not None and table["kind"] == "traction":
+            comments["upper.material"] = _THIN_WALL
+        if bush.correlation_length is not None:
+            across, along = (si(one, "m", 4) for one in ground_lengths(bush))
+            comments["lower.surface"] = _GROOVES.format(across=across, along=along)
+    return scene_text(table, bulk_estimated=element.bulk_estimated, comments=comments)
+
+
+def scene_text(
+    table: Mapping[str, Any], *, bulk_estimated: bool = False, comments: Mapping[str, str] = MappingProxyType({})
+) -> str:
     """Return the table of an element's scene as TOML text for a reader: tables under headings, values with units.
 
     bulk_estimated : True if the oil's temperature is an estimate of the bodies' with this oil, which a comment says.
+    comments : on keys such as "upper.material", in place of the usual ones.
     """
     tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
     rolls = table.get("kind") == "friction" and table["speeds"]["slide_roll_ratio"] == 0
     speeds = table.get("speeds", {})
     lines = [f"{key} = {_value(key, value)}" for key, value in table.items() if key not in tables]
     for key, inner in tables.items():
-        lines += ["", f"[{key}]", *(_line(name, value) for name, value in inner.items())]
+        lines += ["", f"[{key}]", *(_line(name, value, comments.get(f"{key}.{name}")) for name, value in inner.items())]
         if bulk_estimated and key == "oil" and "temperature" in inner:
             lines[-len(inner) + list(inner).index("temperature")] += _FLANKS
         if rolls and key == "speeds":
@@ -77,9 +111,9 @@ def scene_text(table: Mapping[str, Any], *, bulk_estimated: bool = False) -> str
     return "\n".join(lines) + "\n"
 
 
-def _line(name: str, value: Any) -> str:
-    drawn = name == "surface" and isinstance(value, Mapping)
-    return f"{name} = {_value(name, value)}{_RANDOM if drawn else ''}"
+def _line(name: str, value: Any, comment: str | None) -> str:
+    usual = _RANDOM if name == "surface" and isinstance(value, Mapping) else ""
+    return f"{name} = {_value(name, value)}{usual if comment is None else comment}"
 
 
 def _value(key: str, value: Any) -> str:

@@ -11,7 +11,7 @@ from bem.app.planning import shown_plan
 from bem.app.starts import TASKS
 from bem.elements.answer import balance_heat
 from bem.elements.element import MODELS, element_template, load_element
-from bem.scenes.edit import table_text
+from bem.elements.scene_text import element_scene_text
 from bem.scenes.oil import OilScene
 
 pytestmark = pytest.mark.internal
@@ -94,7 +94,9 @@ def test_the_mixed_scene_of_a_form_is_that_of_the_thinnest_film_as_of_the_comman
     table = tomllib.loads(scene_of_form(name, typed(name), "friction"))
     assert load_scene(table).kind == "friction"
     element = balance_heat(load_element(table_of(name, typed(name))))
-    assert table == tomllib.loads(table_text(element.scene(element.thinnest_steady(), "friction")))
+    assert table == tomllib.loads(element_scene_text(element, element.scene(element.thinnest_steady(), "friction")))
+    numbers = re.findall(r"[-+.e0-9]+", " ".join(str(value) for value in table["contact"].values()))
+    assert all(len(number) <= 8 for number in numbers)  # six digits
     smooth = typed(name) | {"rms_roughness": ""}
     with pytest.raises(InputError, match="needs the roughness"):
         scene_of_form(name, smooth, "friction")

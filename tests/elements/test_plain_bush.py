@@ -19,6 +19,7 @@ from bem.elements.element import element_template, load_element
 from bem.elements.figure import element_figure
 from bem.elements.plain_bush import WORN_IN, crescent_distance, sliding_to_depth
 from bem.elements.running import run_all
+from bem.elements.scene_text import element_scene_text
 from bem.notes import Level
 from bem.notes.checks import CAP_NOT_OF_SOFTER, CYLINDER_NARROW, HARDNESS_UNLIKELY, SLOPES_LARGE
 from bem.notes.elements import (
@@ -729,6 +730,23 @@ def test_the_mixed_scene_of_a_polymer_bush_asks_for_nothing_of_its_material(bush
     assert HARDNESS_UNLIKELY.code not in notes
     assert "bush" in str(notes[CYLINDER_NARROW.code])
     assert max(case.cap for case in facts.cases) < 0.3e9
+
+
+def test_a_written_film_of_a_thin_wall_says_its_modulus_and_no_caution_on_hardness():
+    """The modulus is that of a half-space; hardness and yield stress are still those of the catalogue."""
+    thin = WATER | {"second": "pa66", "wall": "1.2 mm", "bulk_temperature": "30 degC", "correlation_length": "10 um"}
+    element = load_element(thin)
+    made = element.scene(element.worst(), "traction")
+    assert made["upper"]["material"]["youngs_modulus"] > 6e9
+    text = element_scene_text(element, made)
+    line = next(line for line in text.splitlines() if "youngs_modulus" in line)
+    assert "# youngs_modulus: of the half-space" in line
+    assert HARDNESS_UNLIKELY.code not in codes(scene_warnings(examine(plan_scene(tomllib.loads(text))[0])))
+    made["upper"]["material"] |= {"yield_stress": "80 MPa"}
+    assert HARDNESS_UNLIKELY.code in codes(scene_warnings(examine(plan_scene(made)[0])))
+    mixed = element_scene_text(element, element.scene(element.worst(), "friction"))
+    assert 'correlation_length = "31.6228 um" }' in mixed
+    assert "geometric mean of 10 um across the grooves (the element's) and 100 um along them" in mixed
 
 
 def test_a_wall_makes_the_bush_stiffer():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from bem.materials import CATALOGUE
+from bem.materials import CATALOGUE, Material
 from bem.notes import Note
 from bem.notes.checks import (
     CAP_NOT_OF_SOFTER,
@@ -165,9 +165,17 @@ def yield_against_hardness(facts: Facts) -> Iterator[Note]:
     for key, material in facts.materials.items():
         if material.hardness is None or material.yield_stress is None or material in tensile:
             continue
+        if _of_catalogue(material):  # with another modulus, such as that of a half-space in place of a thin wall
+            continue
         ratio = material.hardness / material.yield_stress
         if not _least_constraint(material.plane_strain_modulus / material.yield_stress) <= ratio <= 4.0:
             yield HARDNESS_UNLIKELY(key, stress=material.yield_stress, ratio=ratio, reason="yield")
+
+
+def _of_catalogue(material: Material) -> bool:
+    """Return True if hardness and yield stress are both those of the catalogue's material of this name."""
+    known = CATALOGUE[material.name].material if material.name in CATALOGUE else None
+    return known is not None and (known.hardness, known.yield_stress) == (material.hardness, material.yield_stress)
 
 
 def _least_constraint(stiffness: float) -> float:
