@@ -322,6 +322,8 @@ def _show(surface: Surface, name: str) -> None:
         if surface.metadata.get(key):
             rows.append((words, str(surface.metadata[key])))
     table(("figure", "value"), rows, title=name)
+    if any(words == _HURST and "±" in value for words, value in rows):
+        print(f"± of the {_HURST}: standard deviation over maps of this size, by the scatter of the spectrum's rings.")
     if error.Sq > 0:
         print(
             f"± of Sq and Sdq: scatter of maps of this size (standard deviation), from the {error.patches:.0f} "
@@ -365,6 +367,9 @@ def _hints(surface: Surface, name: str = "") -> None:
         )
 
 
+_HURST = "Hurst exponent"
+
+
 def _functional_rows(surface: Surface) -> list[tuple[str, str]]:
     """Return rows on the material ratio curve, the asperities and the spectrum."""
     import math
@@ -397,7 +402,7 @@ def _functional_rows(surface: Surface) -> list[tuple[str, str]]:
         decades = f"rms misfit {fit.misfit:.2f} decades"
         between = f"{si(fit.shortest_wavelength, 'm', digits=3)} to {si(fit.longest_wavelength, 'm', digits=3)}"
         if fit.is_self_affine:
-            rows.append(("Hurst exponent", f"{fit.hurst:.2f} ± {fit.hurst_error:.2f} ({between}; {decades})"))
+            rows.append((_HURST, f"{fit.hurst:.2f} ± {fit.hurst_error:.2f} ({between}; {decades})"))
             if math.isfinite(fit.rolloff_wavelength):
                 rows.append(("roll-off wavelength", si(fit.rolloff_wavelength, "m", digits=3)))
         else:

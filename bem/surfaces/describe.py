@@ -142,6 +142,12 @@ def autocorrelation(heights: FloatArray, axis: int, *, periodic: bool = False) -
     return raw / raw[0] if raw[0] > 0 else np.full_like(raw, math.nan)
 
 
+_HANN_CORRELATION = 35 / 18
+"""Sum of the correlation coefficients of the periodogram of white noise over all lags along an axis with a Hann window
+w: mean(w^4) / mean(w^2)^2 (Percival and Walden, Spectral Analysis for Physical Applications, 1993, section 6.6;
+restated from memory). Across rings of waves it is that where both axes are free."""
+
+
 @readable
 @dataclass(frozen=True, eq=False)
 class RadialSpectrum:
@@ -152,11 +158,14 @@ class RadialSpectrum:
     wavenumber : (n,) angular, mean over each ring [rad/m].
     density : (n,) [m^4], two-dimensional; Sq^2 = integral of density q dq / 2 pi.
     modes : (n,) number of wavevectors in each ring; fewer than ten scatter.
+    ring_correlation : variance of a mean over many rings over that of rings that scatter independently; 1 of periodic
+        maps. The Hann window of free axes mixes neighbouring waves.
     """
 
     wavenumber: FloatArray
     density: FloatArray
     modes: FloatArray
+    ring_correlation: float = 1.0
 
 
 def radial_spectrum(
@@ -198,7 +207,13 @@ def radial_spectrum(
     sums = np.bincount(ring[inside], power.ravel()[inside], minlength=rings + 1)[1:]
     means = np.bincount(ring[inside], q.ravel()[inside], minlength=rings + 1)[1:]
     keep = counts > 0
-    return RadialSpectrum(means[keep] / counts[keep], sums[keep] / counts[keep], counts[keep].astype(np.float64))
+    free = 2 - sum(periodic)
+    return RadialSpectrum(
+        means[keep] / counts[keep],
+        sums[keep] / counts[keep],
+        counts[keep].astype(np.float64),
+        ring_correlation=_HANN_CORRELATION ** (free / 2),
+    )
 
 
 def _rms_slope(deviation: FloatArray, spacing: tuple[float, float], periodic: tuple[bool, bool], axis: int) -> float:

@@ -30,7 +30,7 @@ class SelfAffineFit:
     Attributes
     ----------
     hurst : H; outside 0 to 1 the surface is not self-affine.
-    hurst_error : its standard error from the scatter of the rings about the fit.
+    hurst_error : its standard error: the standard deviation over maps of this size at other places of the surface.
     rolloff_wavelength : 2 pi / q_r [m]; nan if the spectrum rises up to the longest waves of the map.
     shortest_wavelength, longest_wavelength : range of the sloping part [m].
     misfit : rms deviation of the measured density from the fit, in decades, over the range of the fit.
@@ -96,19 +96,35 @@ def fit_self_affine(spectrum: RadialSpectrum) -> SelfAffineFit:
     best = min(range(q.size - _FEWEST_RINGS + 1), key=lambda bend: _bent_line(x, y, weight, bend)[2])
     level, slope, squares = _bent_line(x, y, weight, best)
     steep = np.maximum(x - x[best], 0.0)
-    mean = np.average(steep, weights=weight)
-    spread = float(np.sum(weight * (steep - mean) ** 2))
-    scatter = squares / (q.size - 3)
     residual = y - (level + slope * steep)
     return SelfAffineFit(
         hurst=-slope / 2 - 1,
-        hurst_error=math.sqrt(scatter / spread) / 2,
+        hurst_error=_slope_error(x, weight, best, slope, squares, spectrum.ring_correlation) / 2,
         rolloff_wavelength=float(2 * math.pi / q[best]) if best > 0 else math.nan,
         shortest_wavelength=float(2 * math.pi / q[-1]),
         longest_wavelength=float(2 * math.pi / q[best]),
         misfit=float(np.sqrt(np.average(residual**2, weights=weight))) / math.log(10),
         density=math.exp(level),
     )
+
+
+def _slope_error(
+    x: FloatArray, weight: FloatArray, bend: int, slope: float, squares: float, correlation: float
+) -> float:
+    """Return the standard error of the slope of the bent line, from the scatter of the rings about it.
+
+    Level, slope and bend are fitted together: the covariance of least squares linearised in all three. Rings that a
+    window correlates count as fewer independent ones: the variance is larger by `correlation`, and so many rings less
+    are left for the scatter. Before, a fixed bend and independent rings gave two thirds of the scatter over surfaces.
+    """
+    steep = np.maximum(x - x[bend], 0.0)
+    derivatives = [np.ones_like(x), steep]
+    if bend > 0:  # the ring at the bend has half the derivative of those beyond it
+        derivatives.append(-slope * np.heaviside(x - x[bend], 0.5))
+    jacobian = np.stack(derivatives)
+    covariance = np.linalg.inv((jacobian * weight) @ jacobian.T)
+    independent = max(x.size / correlation - len(derivatives), 1.0)
+    return math.sqrt(squares / independent * float(covariance[1, 1]))
 
 
 def _bent_line(x: FloatArray, y: FloatArray, weight: FloatArray, bend: int) -> tuple[float, float, float]:
