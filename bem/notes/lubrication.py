@@ -301,7 +301,7 @@ LUMPED_HEAT_LIMIT = define(
     CAUTION,
     "The quick heat model (lumped) is outside its validated range.",
     "",
-    'Set thermal = "full" for rollers, gears and other line contacts; for balls take film and friction as estimates.',
+    "{remedy}",
     reasons={
         "formula": "Gupta et al. (1992) did not cover so much load and speed: the film thickness is an estimate.",
         "fast": Reason(

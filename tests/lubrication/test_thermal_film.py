@@ -180,6 +180,7 @@ def test_lumped_heat_says_where_it_was_found_wrong(mean, slide, words):
     """Rows of the stored comparison with full heat: friction 53 % too high had come without a word."""
     notes = film(mean, slide).notes
     assert [word for word in ("fast", "slides") if has_code(notes, LUMPED_HEAT_LIMIT, reason=word)] == words
+    assert not [note for note in notes if note.code == LUMPED_HEAT_LIMIT.code and "balls" in str(note)]
 
 
 @pytest.mark.internal

@@ -77,16 +77,16 @@ def _hot_oil(oil: Oil, hottest: float) -> list[Note]:
     return []
 
 
-def heat_limits(inlet: InletHeating, speeds: tuple[float, float], rise: float) -> tuple[Note, ...]:
+def heat_limits(inlet: InletHeating, speeds: tuple[float, float], rise: float, remedy: str) -> tuple[Note, ...]:
     """Return notes on the limits of lumped heat, from inlet heating, speeds of both walls [m/s] and rise of the mean
-    temperature of the oil [K]."""
+    temperature of the oil [K]; `remedy` says in a sentence what to do in this film."""
     first, second = speeds
     slides = abs(first - second) > LARGEST_SLIDE * 0.5 * abs(first + second) and rise > LARGEST_RISE
     notes = []
     if inlet.extrapolated:
-        notes.append(LUMPED_HEAT_LIMIT(reason="formula"))
+        notes.append(LUMPED_HEAT_LIMIT(remedy=remedy, reason="formula"))
     if inlet.loading > LARGEST_LOADING:
-        notes.append(LUMPED_HEAT_LIMIT(loading=inlet.loading, limit=LARGEST_LOADING, reason="fast"))
+        notes.append(LUMPED_HEAT_LIMIT(loading=inlet.loading, limit=LARGEST_LOADING, remedy=remedy, reason="fast"))
     if slides:
-        notes.append(LUMPED_HEAT_LIMIT(reason="slides"))
+        notes.append(LUMPED_HEAT_LIMIT(remedy=remedy, reason="slides"))
     return tuple(notes)

@@ -383,4 +383,4 @@ def _result(
 def _limits(found: ThermalFilm, lubricant: Lubricant) -> tuple[Note, ...]:
     """Return notes where lumped heat is inaccurate."""
     rise = found.mean_film_temperature - float(lubricant.temperature or 0.0)
-    return heat_limits(found.inlet, found.film.speeds, rise)
+    return heat_limits(found.inlet, found.film.speeds, rise, 'Set thermal = "full".')

@@ -145,7 +145,7 @@ def add_heat(
         status=status,
         notes=(
             *notes,
-            *heat_limits(inlet, (first, second), rise),
+            *heat_limits(inlet, (first, second), rise, "Take film and friction as estimates."),
             *(
                 (LUMPED_HEAT_LIMIT(reason="spreads"),)
                 if rise > LARGEST_RISE and _spread(conductors, half_axes) > LARGEST_SPREAD
