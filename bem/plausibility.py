@@ -137,7 +137,7 @@ RANGES: tuple[UsualRange, ...] = (
     UsualRange(
         "length of a body", "m", 1e-6, 5.0,
         ("width", "bore", "outside", "diameter", "pitch_diameter", "face_width", "module", "lift", "stroke", "rod",
-         "length", "tip_diameters"),
+         "length", "tip_diameters", "shaft_diameter", "wall"),
         _LENGTHS,
     ),
     UsualRange(

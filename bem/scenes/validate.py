@@ -131,7 +131,8 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
     if kind == "scene":
         out = [f"--set {key + '.' if key else ''}{name}=" for name in context.get("given", ())]
         take = f"; take the other out with {' or '.join(out)}" if out else ""
-        return f"{key or 'scene'}{_scalar(value)}: {mistake['msg']}{take}"
+        bare = _numbers_without_unit(mistake["msg"], value, annotation)
+        return f"{key or 'scene'}{_scalar(value)}: {mistake['msg']}{take}{bare}"
     if kind in ("too_long", "too_short") and "actual_length" in context:
         most, least = context.get("max_length"), context.get("min_length")
         many = f"{least} or more" if most is None else f"{most} or fewer"
@@ -144,9 +145,37 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
     text = str(mistake["msg"]).replace("Input should be", "must be").replace("Input should have", "must have")
     if kind.startswith(("greater_than", "less_than")) and dimension and dimension.unit:
         text += f" {dimension.unit}"
+    if kind.startswith("less_than") and dimension and dimension.unit and _is_number(value):
+        text += f" (a number without a unit is in {dimension.unit})"
     if kind.startswith("greater_than") and key in ("contact.load", "contact.mean_pressure"):
         allowed += _PULLED * ("load_path" in _names_at(mistake["loc"][:-1], data, model))
     return f"{where}: {text}{allowed}"
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _numbers_without_unit(message: str, table: Any, annotation: Any) -> str:
+    """Return which keys of a table that a message names are numbers without a unit, and in which unit they are read."""
+    if not isinstance(table, dict):
+        return ""
+    fields, found = fields_of_table(without_none(annotation)), []
+    for name, value in table.items():
+        if not _is_number(value) or not re.search(rf"\b{re.escape(str(name))}\b", message):
+            continue
+        metadata = () if name not in fields else _metadata_of(fields[name])
+        dimension = next((item for item in _spread(metadata) if isinstance(item, Dimension)), None)
+        if name in fields and (dimension is None or not dimension.unit):
+            continue
+        read = f"as {value:g} {dimension.unit}" if dimension is not None else "in SI units"
+        found.append(f"{name} = {value:g} has no unit and is read {read}")
+    return "".join(f"; {words}" for words in found)
+
+
+def _metadata_of(field: Any) -> list[Any]:
+    """Return the metadata of a field, those within a union with None included."""
+    return [*field.metadata, *unwrap(without_none(field.annotation))[1]]
 
 
 def _listed(annotation: Any) -> str:

@@ -749,6 +749,28 @@ def test_a_written_film_of_a_thin_wall_says_its_modulus_and_no_caution_on_hardne
     assert "geometric mean of 10 um across the grooves (the element's) and 100 um along them" in mixed
 
 
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [("clearance", 80, "80 m"), ("wall", 1e-4, "0.0001 m"), ("permitted_wear", 5, "5 m")],
+)
+def test_a_length_without_unit_that_does_not_fit_is_said_to_be_in_m(key, value, words):
+    with pytest.raises(InputError, match=f"{key} = {value:g} has no unit and is read as {words}"):
+        load_element(WATER | {key: value})
+    with pytest.raises(InputError) as told:
+        load_element(WATER | {key: f"{value} m"})
+    assert "has no unit" not in str(told.value)
+    with pytest.raises(InputError, match=r"bore = 0\.01 has no unit and is read in SI units"):
+        load_element(without(WATER, "clearance") | {"bore": 0.01})
+
+
+def test_a_wall_or_a_shaft_of_metres_has_a_caution():
+    """Their unit was forgotten: 2.5 and 20 are read as metres."""
+    said = " ".join(str(note) for note in load_element(WATER | {"wall": 20, "shaft_diameter": 20}).notes())
+    assert 'write "20 mm"' in said
+    assert "wall" in said
+    assert "shaft_diameter" in said
+
+
 def test_a_wall_makes_the_bush_stiffer():
     walls = [load_element(DRY | {"wall": wall}).model for wall in ("5 mm", "2 mm", "1 mm")]
     angles = [one.shaft_contact.half_angle for one in walls]
