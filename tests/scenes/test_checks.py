@@ -673,7 +673,7 @@ OUTCOMES = {
     ),
     "less_than_one_particle": (
         "running-in-stribeck",
-        (particles_outcome(0.2), "regions that would come off. Read the particles per distance"),
+        (particles_outcome(0.2), "an expected number, worn volume over mean volume of a particle, and no count"),
         particles_outcome(0.25),
     ),
     "least_area_of_worn_surfaces": (
