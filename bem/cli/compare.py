@@ -38,15 +38,23 @@ def register(app: typer.Typer) -> None:
         """
         from bem.cli._terminal import print_text, table
         from bem.results import open_run
-        from bem.results.compare import beyond, run_labels, scene_differences, shown, unit_of_key
+        from bem.results.compare import (
+            beyond,
+            run_labels,
+            scene_differences,
+            shortened,
+            shown,
+            unit_of_key,
+            without_sources,
+        )
 
         paths = [first, *others]
         runs = [open_run(path) for path in paths]
         names = _names(paths)
-        scenes = scene_differences(*runs)
+        scenes = without_sources(scene_differences(*runs))
         if scenes:
             rows = [
-                (d.key, *(shown(value, unit_of_key(run, d.key)) for value, run in zip(d.values, runs, strict=True)))
+                (d.key, *shortened([shown(v, unit_of_key(run, d.key)) for v, run in zip(d.values, runs, strict=True)]))
                 for d in scenes
             ]
             table(("key", *names), rows, title="scenes")

@@ -354,10 +354,14 @@ def figure_tables(
             known = {n: summary[n] for n in _TELLING if is_list(summary.get(n))}
             known |= {"over": varied_keys(summary)}
             further = [case for case in value if any(summary.get(key) != case[key] for key in case)]
-            found += _cases(name_and_unit(name)[0], further, known, columns)
+            found += _cases(_TITLES.get(name, name_and_unit(name)[0]), further, known, columns)
     return found
 
 
+_TITLES = {
+    "load_share": "load share of the asperities: exp(-b Λ^c), Λ the lambda ratio; rms and largest residual of the fit"
+}
+"""Titles of tables of cases whose heads need a formula."""
 MOST_ROWS_OF_PATHS = 60
 """Rows of several paths of contact from which on the terminal shows the ends of each and its pitch point alone."""
 

@@ -49,6 +49,34 @@ def scene_differences(*runs: FinishedRun) -> list[Difference]:
     return [item for item in found if item.key not in ("name", "description") and not item.equal]
 
 
+def without_sources(found: Sequence[Difference]) -> list[Difference]:
+    """Return the differences without the source of a material or surface of which another key differs, too."""
+    tables = [item.key.rpartition(".")[0] for item in found if not item.key.endswith(".source")]
+    return [
+        item
+        for item in found
+        if not item.key.endswith(".source") or not any(one.startswith(item.key[: -len(".source")]) for one in tables)
+    ]
+
+
+LONGEST_TEXT = 60
+"""Letters of a value in a table of differences; longer ones are cut."""
+
+
+def shortened(texts: Sequence[str]) -> list[str]:
+    """Return the texts of one row, cut to `LONGEST_TEXT` letters where one is longer.
+
+    What they have in common at the beginning is left out, so that the difference is seen.
+    """
+    if all(len(text) <= LONGEST_TEXT for text in texts):
+        return list(texts)
+    columns = enumerate(zip(*texts, strict=False))
+    alike = next((i for i, letters in columns if len(set(letters)) > 1), min(len(text) for text in texts))
+    begin = texts[0].rfind(" ", 0, alike) + 1 if alike > LONGEST_TEXT // 2 else 0
+    cut = [f"{'... ' if begin else ''}{text[begin:]}" for text in texts]
+    return [text if len(text) <= LONGEST_TEXT else f"{text[: LONGEST_TEXT - 3]}..." for text in cut]
+
+
 def figure_differences(*runs: FinishedRun) -> list[Difference]:
     """All figures of the summaries, equal or not, in the order of the first; a list of numbers is one figure."""
     return _union([_figures(run.summary) for run in runs])

@@ -377,3 +377,11 @@ def test_an_area_is_shown_once_and_roughness_before_and_after_in_one_row(tmp_pat
         ("Sq of the contact region, initial and final", "235.5 nm → 215 nm"),
         ("particle equivalent radius, mean by volume", "300 nm"),
     ]
+
+
+def test_the_table_of_the_load_share_says_its_formula():
+    """The heads b and c are constants of exp(-b lambda^c)."""
+    share = {"model": "elastic", "b": 0.6, "c": 0.7, "b_error": 0.01, "c_error": 0.02, "rms": 0.01, "largest": 0.02}
+    (table,) = figure_tables({"load_share": [share | {"points": 9}]}, ["load_share"])
+    assert "exp(-b Λ^c)" in table.title
+    assert {"b", "c"} <= set(table.head)

@@ -26,8 +26,10 @@ from bem.results.compare import (
     leaves,
     run_labels,
     scene_differences,
+    shortened,
     shown,
     unit_of_key,
+    without_sources,
 )
 from bem.results.directory import checksum
 from bem.runs import run_scene
@@ -43,6 +45,22 @@ def pair(tmp_path_factory):
     first = run_scene(SCENE, folder / "a", figures=False)
     second = run_scene(SCENE | {"name": "two"}, folder / "b", figures=False, settings=["contact.mean_pressure=160 MPa"])
     return first, second
+
+
+@pytest.mark.internal
+def test_long_texts_do_not_widen_the_table_of_scenes():
+    """Sources of materials had 1200 letters: left out beside another key of their table, else cut."""
+    source = Difference("lower.surface.source", ("a" * 900, "b" * 900))
+    other = Difference("lower.surface.correlation_lengths", (1e-6, 2e-6))
+    load = Difference("contact.load", (1.0, 2.0))
+    assert without_sources([source, other, load]) == [other, load]
+    assert without_sources([source, load]) == [source, load]
+    common = "measured in a laboratory by the same people and with the same instrument, "
+    first, second = shortened([common + "dry", common + "wet, " + "at 20 degC, " * 20])
+    assert first == "... dry"
+    assert second.startswith("... wet")
+    assert len(second) == 60
+    assert shortened(["PEEK", "PA 66"]) == ["PEEK", "PA 66"]
 
 
 @pytest.mark.internal
