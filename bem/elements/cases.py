@@ -89,13 +89,15 @@ def _take_out(case: dict[str, Any], key: Key) -> None:
 
 def _drop_base(case: dict[str, Any], columns: Mapping[str, Any]) -> None:
     """Remove base and viscosity index of the file's oil, in place, where the row's grade has its own."""
-    try:
-        find_oil(str(case["oil"]["grade"]), base="mineral")
-    except InputError as error:
-        if "has its own" in str(error):
-            for name in ("base", "viscosity_index"):
-                if f"oil.{name}" not in columns:
-                    _take_out(case, ("oil", name))
+    for base in ("mineral", "pag"):  # at most one of both is that of the grade
+        try:
+            find_oil(str(case["oil"]["grade"]), base=base)
+        except InputError as error:
+            if "has its own" in str(error):
+                for name in ("base", "viscosity_index"):
+                    if f"oil.{name}" not in columns:
+                        _take_out(case, ("oil", name))
+                return
 
 
 def _keys_of(model: type[BaseModel], prefix: str = "") -> list[str]:

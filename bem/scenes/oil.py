@@ -147,7 +147,8 @@ class OilScene(LawTable):
         if grade is None:
             return None
         try:
-            return find_oil(grade).name
+            name = find_oil(grade).name
+            return grade if "mineral" in grade.lower() else name  # "ISO VG 100" would be of any base
         except InputError as error:
             if "viscosity_index is missing" in str(error):  # known when the whole table is
                 return grade

@@ -29,7 +29,7 @@ def test_oils_are_compared_in_every_element(file, tmp_path):
     )
     oils = [one.model.oil.oil for one in load_cases(file, rows)]
     assert [one.base for one in oils] == ["ester", "pao", "pao"]
-    assert [one.name for one in oils] == ["ester 68", "PAO 10", "pao 46"]
+    assert [one.name for one in oils] == ["ester 68", "PAO 10", "pao VG 46"]
 
 
 def test_a_grade_with_its_own_base_takes_the_place_of_the_files(file, tmp_path):

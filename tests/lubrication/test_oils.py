@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pydantic import ValidationError
 
 import bem
 from bem import InputError, Lubricant, find_oil
@@ -15,6 +16,7 @@ from bem.lubrication.oils.catalogue import bases, correlation, correlations, oil
 from bem.lubrication.oils.index import reference_oils, viscosity_at_40, viscosity_at_100, viscosity_index
 from bem.lubrication.oils.over_temperature import Andrade, ViscosityTable, Vogel, Walther
 from bem.lubrication.oils.pressure import ambient_slope
+from bem.scenes.oil import OilScene
 
 T40, T60, T100 = 313.15, 333.15, 373.15
 
@@ -134,6 +136,35 @@ def test_spellings_of_a_grade(spelling):
 
 
 @pytest.mark.parametrize(
+    ("name", "number", "base"),
+    [
+        ("PAG 68", 68, "pag"),
+        ("PAG68", 68, "pag"),
+        ("ester 32", 32, "ester"),
+        ("mineral 100", 100, "mineral"),
+        ("PAO VG 68", 68, "pao"),
+    ],
+)
+def test_a_base_with_a_number_is_the_iso_grade_of_that_base(name, number, base):
+    found = find_oil(name)
+    assert found == find_oil(f"ISO VG {number}", base=base) == find_oil(found.name)
+    assert found.viscosity.kinematic(T40) == pytest.approx(1e-6 * number, rel=1e-9, abs=0)
+    assert find_oil(name, base=base) == found
+    with pytest.raises(InputError, match=f"has its own base {base}"):
+        find_oil(name, base="naphthenic")
+    keys = {"grade": name, "temperature": 333.15}
+    assert OilScene.model_validate(keys).oil == found
+    with pytest.raises(ValidationError, match=f"has its own base {base}"):
+        OilScene.model_validate(keys | {"base": "naphthenic"})
+
+
+def test_a_pao_counts_its_viscosity_at_100_degrees():
+    assert find_oil("PAO 10").viscosity.kinematic(T100) == pytest.approx(10e-6, rel=0.05, abs=0)
+    with pytest.raises(InputError, match='"PAO VG 68", the ISO grade'):
+        find_oil("PAO 68")
+
+
+@pytest.mark.parametrize(
     ("name", "words"),
     [
         ("ISO VG 69", 'did you mean "ISO VG 68"'),
@@ -142,7 +173,7 @@ def test_spellings_of_a_grade(spelling):
         ("SAE 35", 'did you mean "SAE 30"'),
         ("35W-30", "no such W grade"),
         ("lithium grease", "base oil"),
-        ("PAG", 'base = "pag"'),
+        ("PAG", '"PAG 220"'),
         ("water-glycol", '"water-glycol 46"'),
         (68, "must be a name"),
     ],

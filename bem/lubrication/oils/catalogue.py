@@ -21,6 +21,10 @@ from bem.physical_constants import ZERO_CELSIUS
 
 _T40, _T100 = 40.0 + ZERO_CELSIUS, 100.0 + ZERO_CELSIUS
 _ISO = re.compile(r"(?:iso ?vg|iso|vg) ?(\d{1,5})")
+_ISO_OF_BASE = re.compile(
+    r"(mineral|naphthenic|ester|pag|traction) ?(?:iso ?vg|iso|vg)? ?(\d{1,5})|(pao) ?(?:iso ?vg|iso|vg) ?(\d{1,5})"
+)
+"""Base and ISO grade; PAO 4 and the like count the viscosity at 100 degC."""
 _MULTIGRADE = re.compile(r"(?:sae )?(\d{1,3}) ?w ?(\d{1,3})")
 _MONOGRADE = re.compile(r"sae ?(\d{1,3})")
 _LEAST_INDEX = 95.0
@@ -55,7 +59,8 @@ def oil_names() -> tuple[str, ...]:
 
 def find_oil(name: str, *, viscosity_index: float | None = None, base: str | None = None) -> Oil:
     """The oil of a name or grade: "ISO VG 68", "VG68", "SAE 30", "5W-30", "75W-90", "PAO 6", "squalane",
-    "water", "water-glycol 46"; case, blanks and hyphens do not matter.
+    "water", "water-glycol 46"; case, blanks and hyphens do not matter. "PAG 68" is ISO VG 68 of base
+    pag, as "ester 32" and "mineral 100" are of theirs.
 
     Parameters
     ----------
@@ -76,6 +81,11 @@ def find_oil(name: str, *, viscosity_index: float | None = None, base: str | Non
     plain = " ".join(re.sub(r"[-_./]", " ", name.lower()).split())
     if plain.startswith("water glycol"):
         plain, base = "vg " + plain.removeprefix("water glycol").removeprefix(" iso vg").strip(" vg"), "water-glycol"
+    if match := _ISO_OF_BASE.fullmatch(plain):
+        named, number = (one for one in match.groups() if one is not None)
+        if base not in (None, named):
+            raise InputError(f'oil "{name[:60]}": has its own base {named}; leave base = "{base}" out')
+        plain, base = f"vg {number}", named
     makers: tuple[tuple[re.Pattern[str], Callable[..., Oil]], ...] = (
         (_ISO, _iso_grade),
         (_MULTIGRADE, _multigrade),
@@ -150,7 +160,7 @@ def _squeezed(name: str) -> str:
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
 
-_PAG = 'give an ISO grade with base = "pag", such as grade = "ISO VG 220", base = "pag"'
+_PAG = 'allowed: "PAG 220" and other ISO grades'
 _NO_OIL = {
     "grease": "grease has no entry: take its base oil, by grade or viscosities from the maker's sheet, and a table "
     "[supply] where the contact starves",
@@ -166,6 +176,12 @@ def _unknown(name: str) -> InputError:
     for word, advice in _NO_OIL.items():
         if word in words:
             return InputError(f'oil "{name[:60]}": {advice}')
+    match = re.fullmatch(r"pao(\d+)", _squeezed(name))
+    if match and int(match[1]) in _data()["grades"]["iso"]["numbers"]:
+        return InputError(
+            f'oil "{name[:60]}": unknown, as PAO grades are viscosities at 100 degC; allowed: "PAO VG {match[1]}", the '
+            "ISO grade"
+        )
     known = {_squeezed(one): one for one in oil_names()}
     close = difflib.get_close_matches(_squeezed(name), known, n=1, cutoff=0.6)
     hint = f' - did you mean "{known[close[0]]}"?' if close else ""
@@ -187,7 +203,7 @@ def _iso_grade(name: str, number: int, *, viscosity_index: float | None, base: s
     index = table.get("viscosity_index") if viscosity_index is None else viscosity_index
     if index is None:
         raise InputError(f'oil "{name[:60]}": viscosity_index is missing; {base} fluids differ, see the maker\'s sheet')
-    title = f"ISO VG {number}" if base == "mineral" else f"{base} {number}"
+    title = {"mineral": f"ISO VG {number}", "pao": f"pao VG {number}"}.get(base, f"{base} {number}")
     given = "given" if viscosity_index is not None else table["viscosity_index_source"]
     law = _from_index(float(number), viscosity_at_100(number, index))
     return _made(title, base, law, f"{grade['source']}; index {index:g} ({given}), ASTM D2270", {})
