@@ -436,6 +436,7 @@ def test_an_elastic_patch_lies_between_the_theories_of_contact_area():
     modulus, slope = contact_modulus(bodies[0].material, bodies[1].material), summary["combined_Sdq"]
     hardness = min(body.material.indentation_hardness for body in bodies)
     assert summary["slope_plasticity_index"] == pytest.approx(modulus / hardness * slope, rel=1e-9)
+    assert "plasticity_index" in KIND.headline
     ratio = summary["contact_area_fraction"] / summary["reduced_pressure"]
     assert np.sqrt(8 / np.pi) < ratio < np.sqrt(2 * np.pi)
 

@@ -86,7 +86,8 @@ class ContactRecord(GridRecord, WheelRailRecord):
         Figure("", "nominal pressure over contact modulus and rms slope", optional=True, unjudged=True),
     ] = None
     plasticity_index: Annotated[
-        float | None, Figure("", "plasticity index of Greenwood and Williamson", optional=True, unjudged=True)
+        float | None,
+        Figure("", "plasticity index of Greenwood and Williamson", optional=True, headline=True, unjudged=True),
     ] = None
     slope_plasticity_index: Annotated[
         float | None, Figure("", "plasticity index of Mikic, by the rms slope", optional=True, unjudged=True)
