@@ -393,8 +393,15 @@ PRESSURE_AT_SEAM = define(
     "pressure-at-seam",
     CAUTION,
     "The highest pressure lies on a seam of a mirrored surface.",
-    "The ridge there is the mirror's (along {axes}), and so are the stress and the particles below it.",
-    "{action}",
+    reasons={
+        "highest": "The ridge there is the mirror's (along {axes}), and so are the stress and the particles below it.",
+        "load": Reason(
+            "{load:%} of the load lies within {width:si m} of one seam (along {axes}), on {area:%} of the area: the "
+            "ridge there is the mirror's, and so are the contact, the stress and the particles below it.",
+            headline="A seam of a mirrored surface carries more than its part of the load.",
+        ),
+    },
+    action="{action}",
 )
 STRAIN_LARGE = define(
     "strain-large",

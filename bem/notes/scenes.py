@@ -95,14 +95,19 @@ MAP_ALTERED = define(
             headline="The measured map has outliers.",
         ),
         "mirror": Reason(
-            "It is mirrored, and symmetric about its seams: the patch holds the map {copies} times, and load, area and "
+            "It is mirrored, and symmetric about its seams: the patch holds {part} {copies} times, and load, area and "
             "number of contact spots are those of all of them.",
             headline="The measured surface was made periodic.",
+        ),
+        "mirror-cut": Reason(
+            "The grid would hold the whole map; mirrored, it holds {part} {copies} times.",
+            "Take a grid of twice the size along {along}: {size} hold the whole map.",
+            CAUTION,
+            headline="Mirroring on a grid as large as the map cuts it.",
         ),
         "seams": Reason(
             "The step where its ends meet along {along} is spread out (Moisan 2011): {change:si m} rms; up to "
             "{limit:%} of Sq the map counts as the same surface.",
-            'Set mirror = "both" in its surface to keep the heights.',
             headline=_SEAMS,
         ),
         "seams-large": Reason(

@@ -17,8 +17,10 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.notes import Note
+from bem.notes.note import percent
 from bem.notes.scenes import HEIGHT_UNIT_DOUBTFUL, MAP_ALTERED, MAP_SPACING_GIVEN
 from bem.numerics.cache import KeptValues
+from bem.quantities import si
 from bem.scenes.common import MeasuredSurface
 from bem.scenes.paths import checksum_of
 from bem.surfaces.describe import STEEPEST_SURFACE, height_unit_doubt
@@ -159,6 +161,7 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
         found = low_pass(found, surface.low_pass)
     if surface.high_pass is not None:
         found = high_pass(found, surface.high_pass)
+    whole = found.lengths
     axes = (surface.mirror in ("x", "both"), surface.mirror in ("y", "both"))
     odd = [n for n, mirrored in zip(grid.shape, axes, strict=True) if mirrored and n % 2]
     if odd:
@@ -173,7 +176,7 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", MirrorWarning)
             found = mirror_to_periodic(found, axes=axes)
-        note(MAP_ALTERED(name, copies=2 ** sum(axes), reason="mirror"))
+        note(_mirrored_note(name, whole, grid, axes))
     open_x, open_y = (wraps and not mirrored for wraps, mirrored in zip(grid.periodic, axes, strict=True))
     if open_x or open_y:
         found = close_seams(found, axes=(open_x, open_y))
@@ -186,6 +189,37 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
         note(MAP_ALTERED(name, along=along, change=change, share=share, limit=MOST_SEAM_CHANGE, reason="seams"))
     found = scaled
     return np.ascontiguousarray(found.heights - found.heights.mean())
+
+
+def covers(grid: Grid, lengths: tuple[float, float], axes: tuple[bool, bool]) -> bool:
+    """Return True if a grid is as long as a map of these lengths [m] along these axes, within 2 %.
+
+    A longer grid, mirrored, is that of another map, which is smaller.
+    """
+    sides = zip(grid.lengths, lengths, axes, strict=True)
+    return all(math.isclose(side, length, rel_tol=0.02) for side, length, on in sides if on)
+
+
+def _mirrored_note(name: str, lengths: tuple[float, float], grid: Grid, axes: tuple[bool, bool]) -> Note:
+    """Return the note on a map of these lengths [m] mirrored on a grid: it says which part of the map the grid holds,
+    and is a caution where mirrors alone cut the map."""
+    held = [side / (1 + on) for side, on in zip(grid.lengths, axes, strict=True)]
+    share = math.prod(min(side / length, 1.0) for side, length in zip(held, lengths, strict=True))
+    along = " and ".join(axis for axis, on in zip("xy", axes, strict=True) if on)
+    whole = share > _WHOLE
+    size = " x ".join(si((1 + on) * length, "m") for length, on in zip(lengths, axes, strict=True))
+    return MAP_ALTERED(
+        name,
+        copies=2 ** sum(axes),
+        part="the map" if whole else f"{percent(share)} of the map",
+        along=along,
+        size=size,
+        reason="mirror-cut" if not whole and covers(grid, lengths, axes) else "mirror",
+    )
+
+
+_WHOLE = 0.95
+"""Share of the map's area from which it is called the map: cells at the ends may be left out for even numbers."""
 
 
 def _resampled(found: Surface, grid: Grid, centre: tuple[float, float], name: str) -> Surface:

@@ -558,7 +558,7 @@ OUTCOMES = {
     "coating_taken_by_the_film": (COATED_BALL, (film_outcome(120.0), "the outermost coating, dlc"), film_outcome(80.0)),
     "highest_pressure_at_a_seam": (
         MIRRORED,
-        (contact_outcome(spot(1e9, width=1)), "is the mirror's (along x)"),
+        (contact_outcome(spot(1e9, width=1)), "of one seam (along x), on 6.2 % of the area: the ridge there is the"),
         contact_outcome(spot(1e9, at=12, width=1)),
     ),
     "contact_at_free_edges": (

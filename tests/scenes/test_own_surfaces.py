@@ -242,7 +242,7 @@ def test_a_map_bent_to_be_periodic_has_a_caution_with_what_to_do(tmp_path):
         found = seam_notes(scene, *plain)
         assert [note.level for note in found] == [Level.CAUTION] * bent
     assert 'mirror = "both"' in found[0]
-    assert "even numbers of cells along x" in found[0]
+    assert "a grid of twice the size along x and y" in found[0], "on this grid mirrors keep a quarter of the map"
     assert "detrend" not in found[0]  # the curvature is removed already
     assert not seam_notes(scene, *plain[1:], "lower.surface.mirror=both", "grid.shape=96")
 

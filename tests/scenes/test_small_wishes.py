@@ -6,14 +6,19 @@ import shutil
 import numpy as np
 import pytest
 
-from bem import CATALOGUE, Body, InputError, Layer, Material, contact_modulus, load_scene, plan_scene, run_scene
+from bem import CATALOGUE, Body, Grid, InputError, Layer, Material, contact_modulus, load_scene, plan_scene, run_scene
 from bem.elements.element import element_template, load_element
 from bem.scenes.build import heights_of
-from bem.scenes.checks import examine
+from bem.scenes.checks import OUTCOME_CHECKS, examine
 from bem.scenes.checks.overview import bodies
+from bem.scenes.common import MeasuredSurface
+from bem.scenes.context import Outcome, Variable
 from bem.scenes.form import library_scene, with_value
-from bem.scenes.load import changed_description, dump_scene, library
+from bem.scenes.kind import get_kind
+from bem.scenes.load import changed_description, dump_scene, library, scene_from_table
+from bem.scenes.maps import map_on
 from bem.scenes.template import scene_template
+from bem.scenes.validate import validate
 from bem.surfaces.examples import FOLDER
 
 PAIR = ("lower.surface.path=example/ground-disk.al3d", "upper.surface.path=example/polished-pin.x3p")
@@ -178,3 +183,60 @@ def test_a_pressure_on_a_mirror_seam_is_said_to_be_one(tmp_path):
     }
     done = run_scene(table, tmp_path / "run", figures=False)
     assert [note for note in done.summary["notes"] if note["code"] == "pressure-at-seam"]
+
+
+def test_the_load_beside_a_seam_is_compared_with_its_area_where_cells_share_the_hardness():
+    """15 % of the load on 2.5 % of the area stood without a note: many cells have the highest pressure of a cap."""
+    table = {
+        "kind": "contact",
+        "grid": {"shape": 80, "spacing": "0.8 um", "periodic": True},
+        "lower": {
+            "material": "steel-52100",
+            "surface": {"kind": "measured", "path": "example/polished-pin.x3p", "mirror": "x"},
+        },
+        "contact": {"mean_pressure": "10 MPa", "behaviour": "capped", "hardness": "7 GPa"},
+    }
+    kind = get_kind("contact")
+    facts = examine(kind.resolved(scene_from_table(table)))
+    check = OUTCOME_CHECKS["highest_pressure_at_a_seam"]
+
+    def told(ridge_cells):
+        pressure = np.zeros((1, 80, 80))
+        pressure[0, 10, :40] = 7e9  # the first, and as high as any
+        pressure[0, 39:41, :ridge_cells] = 7e9
+        variable = Variable(("load", "x", "y"), pressure, "Pa", "contact pressure")
+        return list(check(facts, Outcome({}, {"pressure": variable})))
+
+    (note,) = told(4)
+    assert (note.values["reason"], note.values["axes"]) == ("load", "x")
+    assert note.values["load"] == pytest.approx(8 / 48, rel=1e-12)
+    assert note.values["area"] == pytest.approx(2 / 80, rel=1e-12)
+    assert told(1) == []
+
+
+@pytest.mark.parametrize(
+    ("mirror", "cells", "reason", "part"),
+    [("both", 48, "mirror-cut", "25 % of the map"), ("both", 96, "mirror", "the map"), ("x", 48, "mirror-cut", "50 %")],
+)
+def test_a_mirrored_map_on_a_grid_as_large_as_the_map_is_cut(tmp_path, mirror, cells, reason, part):
+    """The grid of 150 um held a quarter of the map four times, and the note told of the whole map four times."""
+    from bem import Surface, write_surface
+
+    path = tmp_path / "map.npz"
+    write_surface(path, Surface(1e-8 * np.random.default_rng(0).standard_normal((48, 48)), (1e-6, 1e-6)))
+    surface = validate({"kind": "measured", "path": str(path), "mirror": mirror}, MeasuredSurface)
+    (note,) = map_on(surface, Grid((cells, cells), (1e-6, 1e-6), periodic=(True, True))).notes[:1]
+    assert note.values["reason"] == reason
+    assert note.values["part"].startswith(part)
+
+
+def test_notes_on_seams_lead_to_no_circle(tmp_path):
+    """`mirror = "both"` was advised where closing the seams was well, and to leave mirrors out where they were set."""
+    from bem import Surface, write_surface
+
+    path = tmp_path / "map.npz"
+    write_surface(path, Surface(1e-8 * np.random.default_rng(0).standard_normal((48, 48)), (1e-6, 1e-6)))
+    surface = validate({"kind": "measured", "path": str(path)}, MeasuredSurface)
+    (note,) = map_on(surface, Grid((48, 48), (1e-6, 1e-6), periodic=(True, True))).notes
+    assert note.values["reason"] == "seams"
+    assert "mirror" not in str(note)

@@ -95,23 +95,60 @@ def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[Note]:
 
 @outcome_check
 def highest_pressure_at_a_seam(facts: Facts, outcome: Outcome) -> Iterator[Note]:
-    """A mirrored map is symmetric about its seams: a slope there becomes a ridge that no instrument has seen."""
+    """A mirrored map is symmetric about its seams: a slope there becomes a ridge that no instrument has seen.
+
+    The load beside a seam is compared with its area. Under a hardness many cells have the highest pressure, whose place
+    says nothing.
+    """
     for case in facts.cases[:1]:
         mirrors = {getattr(table, "mirror", "none") for table in case.surfaces.values()}
         axes = [axis for axis, name in enumerate("xy") if mirrors & {name, "both"}]
         for maps in _pressures(outcome) if axes else ():
             plane = maps[-1]
+            if not plane.max() > 0:
+                continue
+            loaded = [(*found, axis) for axis in axes if (found := _load_at_a_seam(plane, axis)) is not None]
+            if loaded:
+                load, area, cells, axis = max(loaded)
+                width = cells * case.grid.spacing[axis] if case.grid is not None else 0.0
+                yield PRESSURE_AT_SEAM(
+                    axes="xy"[axis],
+                    load=load,
+                    area=area,
+                    width=width,
+                    action=_instead_of_mirrors(case),
+                    reason="load",
+                )
+                continue
             place = np.unravel_index(int(plane.argmax()), plane.shape)
             beside = ["xy"[axis] for axis in axes if _from_seam(int(place[axis]), plane.shape[axis]) == 0]
-            if beside and plane.max() > 0:
-                yield PRESSURE_AT_SEAM(axes=joined(beside), action=_instead_of_mirrors(case))
+            if beside and case.cap is None:
+                yield PRESSURE_AT_SEAM(axes=joined(beside), action=_instead_of_mirrors(case), reason="highest")
+
+
+_SEAM_WIDTH = 1 / 40
+"""Half-width of the strip beside a seam over the length of the map that is mirrored."""
+_SEAM_LOAD, _SEAM_EXCESS = 3.0, 0.05
+"""Load share of a strip over its area share, and excess of the load share, from which a seam is a ridge: of some ten
+contact spots one more or less at a seam is chance."""
+
+
+def _load_at_a_seam(plane: NDArray[np.float64], axis: int) -> tuple[float, float, int] | None:
+    """Return load share, area share and half-width in cells of the strip about the seam of an axis that carries more
+    than its part of the load; None where neither does. The seams are in the middle and where the axis wraps."""
+    load = plane.sum(axis=1 - axis) / plane.sum()
+    n = len(load)
+    half = max(1, round(_SEAM_WIDTH * n / 2))
+    strips = [float(np.roll(load, half - seam)[: 2 * half].sum()) for seam in (0, n // 2)]
+    share, area = max(strips), 2 * half / n
+    return (share, area, half) if share > max(_SEAM_LOAD * area, area + _SEAM_EXCESS) else None
 
 
 def _instead_of_mirrors(case: Case) -> str:
     """Return what to do about ridges of mirrored maps: no mirror where maps cover the grid and close well."""
     if case.grid is not None and all(_closes_well(table, case.grid) for table in case.surfaces.values()):
         return "Leave mirror out; the seams are then closed without ridges."
-    return "Remove long waves with high_pass in the mirrored surfaces, or measure larger maps."
+    return "Crop the upturned edge, remove long waves with high_pass in the mirrored surfaces, or measure larger maps."
 
 
 def _closes_well(table: AnySurface, grid: Grid) -> bool:

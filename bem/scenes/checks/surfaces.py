@@ -15,7 +15,7 @@ from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.surfaces_of import RoughSurface
 from bem.scenes.checks.words import times
 from bem.scenes.common import GeneratedSurface, MeasuredSurface
-from bem.scenes.maps import MOST_SEAM_CHANGE
+from bem.scenes.maps import MOST_SEAM_CHANGE, covers, read_map
 from bem.surfaces.describe import STEEPEST_SURFACE
 
 _FILLED = 0.03
@@ -125,13 +125,17 @@ def seams_that_alter_the_map(facts: Facts) -> Iterator[Note]:
 
 
 def _instead_of_closing(surface: RoughSurface) -> str:
-    """Return what to do where closing the seams alters a map: mirrors on the grid as it stands, or less form."""
+    """Return what to do where closing the seams alters a map: mirrors on a grid that holds the map, or less form."""
     table, grid = surface.table, surface.grid
     assert isinstance(table, MeasuredSurface)
     wraps = [axis for axis, on in zip("xy", grid.periodic, strict=True) if on or table.mirror in (axis, "both")]
     odd = [axis for axis, n in zip("xy", grid.shape, strict=True) if axis in wraps and n % 2]
     mirror = "both" if len(wraps) > 1 else wraps[0]
-    cells = f" and even numbers of cells along {joined(odd)}" if odd else ""
+    mirrored = (mirror in ("x", "both"), mirror in ("y", "both"))
+    if covers(grid, read_map(table).lengths, mirrored):  # mirrors on the grid as it stands would cut the map
+        cells = f", and a grid of twice the size along {joined(wraps)}"
+    else:
+        cells = f" and even numbers of cells along {joined(odd)}" if odd else ""
     less = [] if table.detrend == "curvature" else ['detrend = "curvature"']
     less += [] if table.high_pass is not None else ["high_pass to remove long waves"]
     form = f", or {' or '.join(less)}" if less else ""
