@@ -11,7 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.physical_constants import ZERO_CELSIUS
-from bem.plots.labels import FEWEST_CELLS, beyond_ends, colour_ends, in_celsius, key_words, label, prefix, uniform_value
+from bem.plots.labels import (
+    FEWEST_CELLS,
+    FILM_HEIGHTS,
+    beyond_ends,
+    colour_ends,
+    in_celsius,
+    key_words,
+    label,
+    loaded_part,
+    prefix,
+    uniform_value,
+)
 from bem.plots.tables import is_error, is_list, name_and_unit, varied_keys
 from bem.quantities import with_signs
 from bem.results.arrays import Arrays
@@ -209,15 +220,17 @@ def curve_picture(arrays: Arrays, name: str, case: str = "") -> Picture:
     errors = arrays.get(f"{name}_error")
     words = str(item.attrs.get("long_name", name))
     along, under = in_celsius(np.asarray(axis.values), unit_of(axis), item.dims[-1])
+    film = _film_ends(arrays, item)
     if along.dtype.kind in "fiu":
-        length, under = prefix(along, under)
+        length, under = prefix(along if film is None else np.array(film), under)
         along = along * length
     values, unit = in_celsius(np.asarray(item.values, dtype=np.float64), unit_of(item), name, words)
     rows = values.reshape(-1, item.shape[-1])
     bars = None
     if errors is not None and errors.shape == item.shape:
         bars = np.asarray(errors.values, dtype=np.float64).reshape(rows.shape)
-    factor, shown = scaled(rows[np.isfinite(rows)], unit)
+    top = FILM_HEIGHTS * float(np.nanmin(rows)) if film is not None and name.startswith("film_thickness") else None
+    factor, shown = scaled(rows[np.isfinite(rows)] if top is None else np.array([top]), unit)
     names = layers_of(Arrays({**arrays.variables, "_": stood_up(item)}, {}), "_") or [""] * len(rows)
     data = [
         _line(line, along, row * factor, None if bars is None else bars[i] * factor)
@@ -227,7 +240,19 @@ def curve_picture(arrays: Arrays, name: str, case: str = "") -> Picture:
     picture = _curves(data, f"{words}, {case}" if case else words, head, shown, along)
     if name.startswith("residual"):  # from one down to a part in a thousand million
         picture["layout"]["yaxis"] = axis_title(shown) | _POWERS_OF_TEN
+    if film is not None:
+        picture["layout"]["xaxis"] |= {"range": [end * length for end in film]}
+    if top is not None:
+        picture["layout"]["yaxis"] |= {"range": [0.0, top * factor]}
     return picture
+
+
+def _film_ends(arrays: Arrays, item: Variable) -> tuple[float, float] | None:
+    """Return the ends along x [m] between which a film is shown, as its figure does; None of other variables."""
+    if item.dims[-1] != "film_x" or "film_pressure" not in arrays:
+        return None
+    pressure = np.asarray(arrays["film_pressure"].values, dtype=np.float64)
+    return loaded_part(np.asarray(arrays["film_x"].values, dtype=np.float64), pressure)
 
 
 def figure_picture(summary: Mapping[str, Any], name: str, along: str) -> Picture:

@@ -112,6 +112,23 @@ def colour_ends(values: NDArray[np.float64], low: float, high: float) -> tuple[f
     return (first, last) if last > first and most - least > LONE * (last - first) else (least, most)
 
 
+FILM_HEIGHTS = 4.0
+"""Upper end of the axis of a smooth film's thickness over its minimum: the inlet opens to many times that."""
+
+
+def loaded_part(x: NDArray[np.float64], pressure: NDArray[np.float64]) -> tuple[float, float]:
+    """Return the ends of the part of a film that figures show [m]: 1.5 times where it has 1 % of its highest pressure.
+
+    x : (n,) places [m]. pressure : (..., n), of one film or several.
+    """
+    highest = pressure.reshape(-1, x.size).max(axis=0)
+    wide = x[highest > 0.01 * highest.max()]
+    if not wide.size:
+        return float(x[0]), float(x[-1])
+    middle, half = 0.5 * float(wide[-1] + wide[0]), 0.75 * float(wide[-1] - wide[0])
+    return middle - half, middle + half
+
+
 def uniform_value(values: NDArray[np.float64]) -> float | None:
     """The value of a field that is the same everywhere but for rounding; None of any other field, and of an empty one.
 

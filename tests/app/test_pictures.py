@@ -214,6 +214,25 @@ def test_a_hairline_map_becomes_lines_in_the_browser():
     assert "scaleanchor" not in long["layout"]["yaxis"]
 
 
+def test_a_film_is_cropped_on_the_page_as_in_its_figure():
+    """The mesh reaches 50 half-widths into the inlet, where the gap is thousands of films high."""
+    x = np.linspace(-350e-3, 7e-3, 3571)
+    pressure = 5e6 * np.sqrt(np.clip(1 - (x / 5e-3) ** 2, 0, None))
+    variables = {
+        "film_pressure": Variable(("film_x",), pressure, "Pa", "film pressure"),
+        "film_thickness": Variable(("film_x",), 2e-6 + x**2 / 12, "m", "film thickness"),
+        "film_x": Variable(("film_x",), x, "m", "x on the film's own mesh"),
+    }
+    arrays = Arrays(variables, {"film_x": variables["film_x"]})
+    layout = curve_picture(arrays, "film_thickness")["layout"]
+    low, high = layout["xaxis"]["range"]
+    assert (low, high) == pytest.approx((-7.5, 7.5), rel=0.02)
+    assert layout["xaxis"]["title"]["text"].endswith("(mm)")
+    assert layout["yaxis"]["range"] == pytest.approx([0.0, 8.0])
+    assert layout["yaxis"]["title"]["text"] == "µm"
+    assert curve_picture(arrays, "film_pressure")["layout"]["xaxis"]["range"] == [low, high]
+
+
 def test_the_browser_draws_no_empty_charts_and_names_case_and_temperature():
     variables = {
         "speed": Variable(("speed",), np.array([0.001, 0.1]), "m/s", "speed"),

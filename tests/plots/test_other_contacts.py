@@ -16,6 +16,7 @@ from bem.kinds.friction import friction_map
 from bem.kinds.point_film import figures as point_film
 from bem.kinds.running_in import figures as running_in
 from bem.kinds.running_in_life import figures as running_in_life
+from bem.kinds.surface_temperature.figures import highest_in_words
 from bem.kinds.wear import figures as wear
 from bem.plots import draw as drawing
 from bem.plots.cases import along
@@ -428,6 +429,18 @@ def test_a_section_under_a_ball_runs_through_its_middle(contact, touching):
     (upper, _) = drawn(kind.draw, run).axes
     (spots,) = (line for line in upper.lines if line.get_label() == "in contact")
     assert spots.get_xdata().size == touching
+    figure = Figure(layout="constrained")
+    kind.draw(run, figure)
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        assert axes.get_legend().get_window_extent().y0 >= axes.get_window_extent().y1
+
+
+def test_the_highest_temperature_has_the_digits_of_its_scale():
+    """It was 50 degC over a scale from 50.000 to 50.021."""
+    assert highest_in_words(np.array([[50.0, 50.0213]])) == "50.021"
+    assert highest_in_words(np.array([[50.0, 83.4]])) == "83"
+    assert highest_in_words(np.array([[50.0, 50.0]])) == "50"
 
 
 def test_curves_below_zero_are_shown_whole():

@@ -17,6 +17,7 @@ from bem.kinds.friction.friction_map import FRICTION_MAP
 from bem.physical_constants import ZERO_CELSIUS
 from bem.plots.cases import case_words, grouped, many_speeds
 from bem.plots.figures import FigureKind
+from bem.plots.labels import FILM_HEIGHTS, loaded_part
 from bem.plots.style import (
     BLACK,
     BLUE,
@@ -160,10 +161,9 @@ def _section(run: Any, figure: Figure) -> None:
     low = float(deformed[seen].min()) * 1e9
     high = 1.4e9 * float(np.quantile(film[seen], 0.75))
     tallest = max(deformed[seen].max(), plane[seen].max()) * 1e9
-    upper.set_ylim(low * 1.05, max(high, tallest + 0.35 * (tallest - low)))  # the legend is above
-    upper.set_ylabel("height (nm)")
-    upper.legend(fontsize=8, ncols=2, loc="upper center")
-    upper.set_title("the lower surface has the roughness of both", fontsize=8.5)
+    upper.set_ylim(low * 1.05, max(high, tallest))
+    upper.set_ylabel("height (nm), with the\nroughness of both surfaces", fontsize=8)
+    upper.legend(fontsize=8, ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0))  # above the curves
     lower.plot(x[seen] * factor_x, data["film_pressure_patch"].values[seen] * 1e-6, color=BLUE, label="film")
     lower.plot(
         x[seen] * factor_x,
@@ -175,7 +175,7 @@ def _section(run: Any, figure: Figure) -> None:
     lower.set_xlabel(label("x", unit_x))
     lower.set_ylabel("pressure (MPa)")
     lower.set_ylim(0)
-    lower.legend(fontsize=8)
+    lower.legend(fontsize=8, ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))  # above the curves
 
 
 def _row_of_the_separation(run: Any) -> int:
@@ -193,11 +193,9 @@ def _row_of_the_separation(run: Any) -> int:
 def _film(run: Any, figure: Figure) -> None:
     data = run.dataset
     x, pressure, film = data["film_x"].values, data["film_pressure"].values, data["film_thickness"].values
-    wide = np.flatnonzero(pressure > 0.01 * pressure.max())
-    half = 0.75 * float(x[wide[-1]] - x[wide[0]])
-    middle = 0.5 * float(x[wide[-1]] + x[wide[0]])
-    seen = np.abs(x - middle) <= half
-    factor_x, unit_x = prefix(half, "m")
+    first, last = loaded_part(x, pressure)
+    seen = (first <= x) & (x <= last)
+    factor_x, unit_x = prefix(0.5 * (last - first), "m")
     factor, unit = prefix(pressure, "Pa")
     axes = figure.add_subplot()
     axes.plot(x[seen] * factor_x, pressure[seen] * factor, color=BLUE)
@@ -209,7 +207,7 @@ def _film(run: Any, figure: Figure) -> None:
     other = axes.twinx()
     other.spines["right"].set_visible(True)
     other.plot(x[seen] * factor_x, film[seen] * 1e9, color=VERMILION)
-    other.set_ylim(0, 4 * float(film.min()) * 1e9)
+    other.set_ylim(0, FILM_HEIGHTS * float(film.min()) * 1e9)
     other.set_ylabel("film thickness (nm)", color=VERMILION)
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from bem.physical_constants import ZERO_CELSIUS
 from bem.plots.figures import FigureKind, two_dimensional
@@ -22,7 +24,14 @@ def _map(run: Any, figure: Figure) -> None:
     factor, _ = prefix([float(np.ptp(x))], "m")
     i, j = np.unravel_index(int(np.argmax(celsius)), celsius.shape)
     axes.plot(x[i] * factor, y[j] * factor, "+", color="white", markersize=8)
-    axes.set_title(f"highest {celsius[i, j]:.0f} °C", loc="right")
+    axes.set_title(f"highest {highest_in_words(celsius)} °C", loc="right")
+
+
+def highest_in_words(celsius: NDArray[np.float64]) -> str:
+    """Return the highest temperature with the decimals that the scale of the map resolves: two digits of its range."""
+    span = float(np.ptp(celsius))
+    decimals = 0 if span == 0 else min(max(0, 1 - math.floor(math.log10(span))), 6)
+    return f"{float(celsius.max()):.{decimals}f}"
 
 
 def _section(run: Any, figure: Figure) -> None:
