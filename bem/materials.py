@@ -445,9 +445,10 @@ class UnknownMaterialError(InputError, KeyError):
 
 
 OTHER_NAMES = {
-    "nylon": "pa66",
-    "teflon": "ptfe",
-    "acetal": "pom",
+    **dict.fromkeys(("nylon", "nylon-66", "polyamide", "polyamide-66", "pa-66", "pa6.6"), "pa66"),
+    **dict.fromkeys(("teflon", "polytetrafluoroethylene"), "ptfe"),
+    **dict.fromkeys(("acetal", "delrin", "polyoxymethylene", "polyacetal"), "pom"),
+    "polyetheretherketone": "peek",
     **dict.fromkeys(("100cr6", "1.3505", "suj2", "suj-2", "aisi-52100", "sae-52100", "gcr15"), "steel-52100"),
     **dict.fromkeys(("18crnimo7-6", "17crnimo6", "1.6587"), "case-hardened-steel"),
     **dict.fromkeys(("16mncr5", "20mncr5", "1.7131", "1.7147"), "case-hardened-steel"),  # other case, same constants

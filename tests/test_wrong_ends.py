@@ -137,7 +137,10 @@ def test_what_is_not_modelled_has_its_own_answer(word):
     assert NOT_MODELLED[word] in said
 
 
-@pytest.mark.parametrize(("word", "name"), [("PEEK", "peek"), ("nylon", "pa66"), ("Teflon", "ptfe"), ("pom", "pom")])
+@pytest.mark.parametrize(
+    ("word", "name"),
+    [("PEEK", "peek"), ("nylon", "pa66"), ("Teflon", "ptfe"), ("pom", "pom"), ("polyamide", "pa66"), ("Delrin", "pom")],
+)
 def test_materials_are_found_by_common_names(word, name):
     code, said = bem("materials", word)
     assert code == 0

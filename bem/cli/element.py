@@ -79,6 +79,7 @@ def element(
     """
     from bem.cli._quantity import new_file
     from bem.cli._terminal import print_text, print_written, show_warnings
+    from bem.cli.run import tell_compiling
     from bem.elements.answer import all_notes, balance_heat, contact_words, place_words, table_columns
     from bem.elements.element import LIFE, MIXED, load_element
     from bem.elements.figure import draw_element
@@ -104,7 +105,9 @@ def element(
     if cases is not None:
         _cases(file, cases, table, (scene, path, running, contacts, figure))
         return
-    found = balance_heat(load_element(file))
+    loaded = load_element(file)
+    tell_compiling(loaded)
+    found = balance_heat(loaded)
     whole = at == "path"
     chosen = found.critical() if whole or not at else _chosen(found, at)
     if not at and scene is not None:
@@ -168,6 +171,7 @@ def element(
 def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...]) -> None:
     """A line for each case."""
     from bem.cli._terminal import Terminal, print_written, show_warnings, table
+    from bem.cli.run import tell_compiling
     from bem.elements.answer import PLACES, all_notes, balance_heat
     from bem.elements.cases import changed_keys, columns, load_cases
     from bem.elements.element import csv_text, read_element
@@ -185,6 +189,7 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
     cases, changed = load_cases(file, rows), changed_keys(file, rows)
     runs: list[Sequence[Running]] = []
     if not any(one.model.oil is None for one in cases):
+        tell_compiling(cases[0])
         with Terminal() as terminal:
             balanced = []
             for done, one in enumerate(cases):

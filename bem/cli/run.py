@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from bem.cli._quantity import named_folder
 from bem.quantities import si
+
+if TYPE_CHECKING:
+    from bem.elements.element import Element
 
 
 def complete_scene(incomplete: str) -> list[str]:
@@ -137,7 +140,25 @@ def prepare_first_run(scene: str, settings: Sequence[str], accuracy: str | dict[
     if cold and resolved.kind == "contact":
         compile_with_progress(main=True)
     elif seconds_to_compile(resolved) >= _SAID:
-        typer.echo("bem: compiling loops, once for each kind (`bem warm-up` compiles all of them)", err=True)
+        typer.echo(_COMPILES, err=True)
+
+
+_COMPILES = "bem: compiling loops, once for each kind (`bem warm-up` compiles all of them)"
+
+
+def tell_compiling(element: Element) -> None:
+    """Say that films of a machine element, and the load sharing of a bush, are compiled first where that takes time."""
+    from bem.compiled import FILM_SECONDS, SECONDS, SHARING_SECONDS, is_cold
+    from bem.elements.plain_bush import PlainBushModel
+
+    if element.model.oil is None:
+        return
+    contact, film = is_cold(), is_cold(_RUNNING_IN["line"])
+    seconds = FILM_SECONDS["line"] * film
+    if isinstance(element.model, PlainBushModel) and element.model.rms_roughness is not None:
+        seconds += SECONDS * contact + SHARING_SECONDS * (contact or film)
+    if seconds >= _SAID:
+        typer.echo(_COMPILES, err=True)
 
 
 def tell_changed_size(source: str, settings: Sequence[str]) -> None:

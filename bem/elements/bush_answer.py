@@ -10,6 +10,7 @@ from bem.elements.bush_polymers import LARGEST_EXPANSION, LEAST_EXPANSION, SERVI
 from bem.elements.model import LEAST_ASPERITY_SHARE
 from bem.elements.plain_bush import (
     AREA_FACTOR,
+    POLYMER,
     TRANSFER,
     WORN_IN,
     PlainBushModel,
@@ -152,7 +153,13 @@ def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[f
     known, bush = model.dry_friction, model.second.build().name
     if known is None:
         return None, f"give friction, measured against this shaft: none is known of {bush}, {dry}"
-    return known.value * slid, f"friction coefficient {known.value:g} assumed for {bush}, {dry}: {known.source}"
+    shaft = model.first.build()
+    other = (
+        f"; that is on steel, none is known against a shaft of {shaft.name}: give friction"
+        if shaft.youngs_modulus < POLYMER
+        else ""
+    )
+    return known.value * slid, f"friction coefficient {known.value:g} assumed for {bush}, {dry}: {known.source}{other}"
 
 
 def bush_temperature(model: PlainBushModel, power: float) -> float:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bem.elements.element import Element
+from bem.elements.model import LEAST_ASPERITY_SHARE
 from bem.elements.plain_bush import PlainBushModel, sliding_to_depth, worn_out_depth
 from bem.elements.running import Running
 from bem.physical_constants import ZERO_CELSIUS
@@ -39,7 +40,7 @@ def element_figure(element: Element, runs: Sequence[Running]) -> Figure:
     known = [one for one in runs if one.converged]
     if isinstance(element.model, PlainBushModel):
         with style():
-            return _bush(element, element.model, Figure(figsize=(7.2, 4.6), layout="constrained"))
+            return _bush(element, element.model, known, Figure(figsize=(7.2, 4.6), layout="constrained"))
     with style():
         figure = Figure(figsize=(7.2, 7.8 if known else 4.6), layout="constrained")
         panels = figure.subplots(4 if known else 2, 1, sharex=True)
@@ -64,8 +65,11 @@ def element_figure(element: Element, runs: Sequence[Running]) -> Figure:
     return figure
 
 
-def _bush(element: Element, model: PlainBushModel, figure: Figure) -> Figure:
-    """Draw the pressure of a bush beside the equivalent cylinder's, and with a wear rate the worn depth over time."""
+def _bush(element: Element, model: PlainBushModel, runs: Sequence[Running], figure: Figure) -> Figure:
+    """Draw the pressure of a bush beside the equivalent cylinder's, and with a wear rate the worn depth over time.
+
+    Where the film carries the load the curve of wear says that it is of rubbing surfaces.
+    """
     import numpy as np
 
     found, flat = model.shaft_contact, model.cylinder
@@ -87,6 +91,8 @@ def _bush(element: Element, model: PlainBushModel, figure: Figure) -> Figure:
         panels[1].plot(hours, 1e6 * depth, color="C0")
         panels[1].set_xlabel("time (h)")
         panels[1].set_ylabel("worn depth at the load line (um)")
+        if runs and max(one.asperity_share or 0.0 for one in runs) < LEAST_ASPERITY_SHARE:
+            panels[1].set_title("if the surfaces rub; here a film carries the load", fontsize="small")
         panels[1].set_xlim(left=0)
         panels[1].set_ylim(bottom=0)
     figure.suptitle(f"{model.name}: {model.description or model.element}", fontsize="medium")

@@ -662,6 +662,17 @@ def test_wear_and_life_in_words():
     assert "test in this liquid" in dict(answer(wet, run_all(wet)))["wear per hour"]
     assert "not known" in dict(answer(load_element(DRY), ()))["wear per hour"]
     assert len(element_figure(element, ()).axes) == 2
+    rubs = element_figure(wet, run_all(wet)).axes[1]
+    assert rubs.get_title() == ""  # asperities carry a part of the load
+    floats = [replace(one, asperity_share=0.001) for one in run_all(wet)]
+    assert "a film carries the load" in element_figure(wet, floats).axes[1].get_title()
+
+
+def test_an_assumed_friction_is_that_on_steel():
+    said = dict(answer(load_element(DRY | {"second": "pa66"}), ()))["friction power"]
+    assert "against a shaft" not in said
+    soft = dict(answer(load_element(DRY | {"second": "pa66", "first": "pa66"}), ()))["friction power"]
+    assert "that is on steel, none is known against a shaft of pa66" in soft
 
 
 @pytest.mark.parametrize(

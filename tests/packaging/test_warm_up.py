@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,7 +15,8 @@ import pytest
 from numba import types
 
 from bem import compiled
-from bem.cli.run import running_in_is_cold, seconds_to_compile
+from bem.cli.run import running_in_is_cold, seconds_to_compile, tell_compiling
+from bem.elements.element import element_template, load_element
 from bem.runs import plan_scene
 from bem.startup.signatures import SignatureRecord, SignatureWriter
 from bem.warm_up import RECORD, scenes
@@ -391,6 +393,17 @@ def test_a_running_in_has_loops_that_a_warm_contact_has_not_compiled(tmp_path, m
     assert running_in_is_cold(oiled)  # stresses and particles are not there yet
     compile_one("wear", "segmentation")
     assert not running_in_is_cold(oiled)
+
+
+def test_a_bush_says_that_its_films_are_compiled_first(tmp_path, monkeypatch, capsys):
+    """The first answer in water was silent for two minutes."""
+    bush = load_element(tomllib.loads(element_template("plain-bush")) | {"name": "bush"})
+    dry = load_element({key: value for key, value in bush.table.items() if key != "oil"})
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    tell_compiling(dry)
+    assert capsys.readouterr().err == ""
+    tell_compiling(bush)
+    assert "compiling loops, once for each kind (`bem warm-up`" in capsys.readouterr().err
 
 
 def test_every_kind_says_how_long_its_own_loops_take(tmp_path, monkeypatch):
