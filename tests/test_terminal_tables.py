@@ -10,6 +10,7 @@ from bem.cli._terminal import (
     print_numbers,
     print_points,
     print_text,
+    scatter_of_places,
     show_warnings,
     table,
     wrapped,
@@ -207,3 +208,19 @@ def test_progress_shows_whole_figures_only(room):
     assert text in ("", "friction 0.07741", "friction 0.07741  contact load 12.5")
     assert len(text) <= max(room, 0)
     assert ("contact load 12.5" in text) == (room == 40)
+
+
+def test_a_sweep_over_places_has_mean_and_standard_deviation():
+    """Six places gave six rows; the mean and the scatter that a paper gives were left to the reader."""
+    figures = {
+        "over": {"lower.surface.path": ""},
+        "lower.surface.path": ["a.al3d", "b.al3d", "c.al3d"],
+        "contact_area_fraction": [0.01, 0.02, 0.06],
+        "contact_area_fraction_error": [0.001, 0.001, 0.001],
+        "max_pressure_Pa": [1e9, 1e9, None],
+    }
+    rows = scatter_of_places(figures)
+    assert [row[0] for row in rows] == ["contact area fraction"], "a place without a value has no mean"
+    assert rows[0][1:] == ("3 %", "2.646 %")
+    assert scatter_of_places(figures | {"over": {"contact_load": "N"}, "contact_load": [1, 2, 3]}) == []
+    assert scatter_of_places(figures | {"lower.surface.path": ["a.al3d", "a.al3d", "c.al3d"]}) == []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import shutil
 import sys
@@ -17,6 +18,7 @@ import typer
 from bem.cli._streams import results_saved
 from bem.notes import OUTSIDE, Level, Note, as_note, of_summary
 from bem.notes.merge import identity
+from bem.notes.note import LevelledText
 
 _FIRST_SHOWN_AFTER = 1.0  # seconds; shorter work needs no bar
 _LINE_EVERY = 30.0  # seconds between lines of progress where there is no terminal
@@ -72,7 +74,7 @@ class Terminal:
         Notes that put the result outside the model stand in the table of numbers (`numbers`), or at the end without it.
         """
         if not isinstance(text, Note):
-            self.say(f"note: {text}")
+            self.say(text if isinstance(text, LevelledText) else f"note: {text}")
             return
         keys = {identity(text), (text.code, text.texts), (text.code, text.values.get("reason"), text.headline)}
         if text.level is Level.INFO or keys & self._noted:
@@ -446,8 +448,36 @@ def print_points(figures: Mapping[str, Any]) -> None:
     names = [name for name in figures if name != "over" and not is_error(name, figures)]
     if all(len(figures[name]) == 1 for name in names):
         table(("figure", "value"), [with_error(name, figures) for name in names])
-    else:
-        print_lists(figures, names)
+        return
+    print_lists(figures, names)
+    rows = scatter_of_places(figures)
+    if rows:
+        table(("figure", "mean", "standard deviation"), rows, title=f"over {len(figures[names[0]])} surfaces")
+
+
+def scatter_of_places(figures: Mapping[str, Any]) -> list[tuple[str, str, str]]:
+    """Return name, mean and standard deviation of the figures of a sweep over surfaces alone: files of several places,
+    or seeds; none of other sweeps, nor where a point has several cases."""
+    from bem.plots.report import with_error
+    from bem.plots.tables import SCATTERS, is_error, scatter_key
+
+    over = tuple(figures.get("over") or ())
+    if not over or not all(key == "seed" or key.endswith(("surface_path", "surface.path")) for key in over):
+        return []
+    points = list(zip(*(figures[key] for key in over), strict=True))
+    if len(points) < 2 or len(set(points)) < len(points):
+        return []
+    bars = {scatter_key(name, mark) for name in figures for mark in SCATTERS}
+    rows = []
+    for name, values in figures.items():
+        known = isinstance(values, list) and all(isinstance(v, int | float) and math.isfinite(v) for v in values)
+        if not known or name in over or name in bars or is_error(name, figures):
+            continue
+        mean = math.fsum(values) / len(values)
+        deviation = math.sqrt(math.fsum((value - mean) ** 2 for value in values) / (len(values) - 1))
+        words, shown = with_error(name, {name: mean})
+        rows.append((words, shown, with_error(name, {name: deviation})[1]))
+    return rows
 
 
 def print_written(path: Path) -> None:

@@ -307,7 +307,11 @@ def _show(surface: Surface, name: str) -> None:
         ("size", " x ".join(metres(s) for s in surface.lengths)),
         (
             "Sq, rms height",
-            metres(d.Sq) + (f" ± {_written(error.Sq, _LENGTH, 2, _unit_of(d.Sq))}" if error.Sq > 0 else ""),
+            " ± ".join(
+                _written(value, _LENGTH, digits, _unit_of(d.Sq))
+                for value, digits in ((d.Sq, 4), (error.Sq, 2))
+                if digits == 4 or value > 0
+            ),
         ),
         ("Sa, mean height", metres(d.Sa)),
         ("Sz, peak to valley", metres(d.Sz)),

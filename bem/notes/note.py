@@ -128,6 +128,10 @@ class NoteKind:
         return headline, said, action
 
 
+class LevelledText(str):
+    """A text about several results that begins with its level, such as "remark, 4 of 4 points"; shown as it is."""
+
+
 _KINDS: dict[str, NoteKind] = {}
 
 

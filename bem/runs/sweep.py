@@ -19,7 +19,7 @@ from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out
 from bem.errors import InputError, ResultsError
 from bem.notes import Level, of_summary
-from bem.notes.note import PLAIN
+from bem.notes.note import OUTSIDE, PLAIN, LevelledText
 from bem.plots.draw import load_what_draws
 from bem.plots.tables import summary_of_points
 from bem.quantities import counted
@@ -215,18 +215,22 @@ def _tell_notes(
         first = f"figures of {labels[min(points & most)]}" if len(told[said]) > 1 else ""
         beyond = f", outside the model in {len(most)}" if len(most) < len(number[said]) else ""
         of = _points_said(number[said], labels, len(summaries), first)
-        watcher.note(f"{len(number[said])} of {counted(len(summaries), 'point')}{beyond}{of}: {text}")
+        level = "outside the model" if worst[said] is Level.OUTSIDE_MODEL and not beyond else "caution"
+        at = f"{level}, {len(number[said])} of {counted(len(summaries), 'point')}{beyond}{of}"
+        watcher.note(LevelledText(f"{at}: {text.replace(OUTSIDE, '', 1)}"))
     if (more := len(shown) - _MOST_NOTES) > 0:
-        watcher.note(f"and {more} more, in the summary.json of points")
+        watcher.note(LevelledText(f"and {more} more, in the summary.json of points"))
     remarks = [said for said in told if worst[said] == Level.INFO]
     remarks.sort(key=lambda said: -len(number[said]))
     for said in remarks[:_MOST_REMARKS]:
         of = _points_said(number[said], labels, len(summaries), "")
         headline = next(iter(told[said])).partition(". ")[0].rstrip(".")
-        watcher.note(f"remark, {len(number[said])} of {counted(len(summaries), 'point')}{of}: {headline}.")
+        at = f"remark, {len(number[said])} of {counted(len(summaries), 'point')}{of}"
+        watcher.note(LevelledText(f"{at}: {headline}."))
     if remarks:
         most_told = max(range(len(files)), key=lambda point: sum(point in number[said] for said in remarks))
-        watcher.note(f'{counted(len(remarks), "remark")}: read "notes" in {files[most_told]} (each point has its own)')
+        where = f'read "notes" in {files[most_told]} (each point has its own)'
+        watcher.note(LevelledText(f"{counted(len(remarks), 'remark')}: {where}"))
 
 
 def _points_said(points: set[int], labels: Sequence[str], count: int, first: str) -> str:

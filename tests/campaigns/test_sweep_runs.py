@@ -518,7 +518,7 @@ def test_notes_of_points_are_told_once_with_how_many_have_them(tmp_path):
     run_sweep("hertz-sphere", ["contact.load=1 N,1000 N"], tmp_path / "s", settings=["grid.shape=32"], watcher=told)
     edge = [text for text in told.notes if "contact reaches a free edge of the grid" in text]
     assert len(edge) == 1
-    assert edge[0].startswith(f'1 of 2 points (contact.load = "1000 N"): {OUTSIDE}')
+    assert edge[0].startswith(f'{OUTSIDE[:-2]}, 1 of 2 points (contact.load = "1000 N"): The ')
 
 
 @pytest.mark.internal
@@ -527,7 +527,7 @@ def test_what_is_outside_the_model_is_among_the_notes_of_a_sweep_that_are_told()
     words = [f"note {letter}" for letter in "abcdefghijklmnopqrstuvwxyzABCD"]
     many = [{"notes": words}, {"notes": [*words, OUTSIDE + "half of it"]}]
     _tell_notes(many, ["a = 1", "a = 2"], [Path("a"), Path("b")], told := Telling())
-    assert told.notes[0] == f"1 of 2 points (a = 2): {OUTSIDE}half of it"
+    assert told.notes[0] == f"{OUTSIDE[:-2]}, 1 of 2 points (a = 2): half of it"
     assert told.notes[-1] == "and 11 more, in the summary.json of points"
 
 
@@ -542,11 +542,11 @@ def test_notes_of_one_code_are_told_once_with_those_of_the_first_point():
     points[1] = None
     _tell_notes(points, [f"a = {i}" for i in range(30)], [Path(f"{i}.json") for i in range(30)], told := Telling())
     assert [text.partition(": ")[0] for text in told.notes[:3]] == [
-        "1 of 30 points (a = 7)",
-        "29 of 30 points (figures of a = 0)",
-        "29 of 30 points",
+        f"{OUTSIDE[:-2]}, 1 of 30 points (a = 7)",
+        "caution, 29 of 30 points (figures of a = 0)",
+        "caution, 29 of 30 points",
     ]
-    assert OUTSIDE in told.notes[0]
+    assert OUTSIDE not in told.notes[0], "the level stands once"
     assert FILM_MOLECULAR(limit=1e-9) in told.notes[1]
     assert [text.split(": ")[1] for text in told.notes[3:5]] == ["load 2 N", "load 20 mN"]
     assert told.notes[5].startswith("remark, 1 of 30 points (a = 5): ")
@@ -560,7 +560,7 @@ def test_a_note_of_two_levels_counts_the_points_of_both_and_shows_the_more_serio
     points = [{"notes": [note.as_dict()]} for note in (caution, beyond, beyond)]
     _tell_notes(points, ["a = 1", "a = 2", "a = 3"], [Path(f"{i}.json") for i in range(3)], told := Telling())
     (line,) = told.notes
-    assert line.startswith(f"3 of 3 points, outside the model in 2 (figures of a = 2): {OUTSIDE}")
+    assert line.startswith("caution, 3 of 3 points, outside the model in 2 (figures of a = 2): ")
     assert "70 % of the load" in line
 
 

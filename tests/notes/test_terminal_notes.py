@@ -6,6 +6,7 @@ import pytest
 from bem.cli._terminal import Terminal, show_remarks, show_warnings
 from bem.notes.friction import FRICTION_UNPHYSICAL
 from bem.notes.lubrication import FILM_NOT_FOUND, FILM_SPIKE, OIL_TOO_THICK, SHEAR_LIMITED
+from bem.notes.note import LevelledText
 
 pytestmark = pytest.mark.internal
 BEYOND = FRICTION_UNPHYSICAL(friction=3.0, limit=1.0, reason="drag")
@@ -61,6 +62,12 @@ def test_a_message_on_the_work_is_shown_as_it_is(capsys):
     with Terminal() as terminal:
         terminal.note("2 processes instead of 4")
     assert capsys.readouterr().err == "bem: note: 2 processes instead of 4\n"
+
+
+def test_a_text_that_begins_with_its_level_has_no_second_one(capsys):
+    with Terminal() as terminal:
+        terminal.note(LevelledText("remark, 4 of 4 points: It is so."))
+    assert capsys.readouterr().err == "bem: remark, 4 of 4 points: It is so.\n"
 
 
 def test_warnings_of_a_plan_are_lines_and_remarks_a_number(capsys):
