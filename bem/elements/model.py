@@ -76,13 +76,14 @@ class HeatBalanceScene(Table):
 class ElementModel(Table):
     """Both materials, the oil, and the rms roughness of both surfaces together, for the lambda ratio.
 
-    `thermal`: frictional heat of the films, as in kind traction. `specific_wear_rate`: Archard's, under this
-    lubrication. `permissible_film_ratio`: the smallest lambda ratio at which a test with this oil and finish showed no
-    micropitting. `mean_particle_volume`: mean volume of wear particles, measured (AFM) or of kinds wear and running-in,
-    for their number per hour. `boundary_friction`: friction coefficient of asperity contacts. `bulk_temperature`: of
-    both bodies below their surfaces, at which films are solved, or `heat_balance`, from which it follows; without both
-    the bodies are as warm as the oil. A given `oil.viscosity` follows it by `oil.temperature_viscosity` from
-    `oil.temperature`; without these it is that at the bulk temperature.
+    `correlation_length`: of the roughness across its grooves (decay to 1/e), along them in the proportion of the usual
+    finish, whose length it has without this key. `thermal`: frictional heat of the films, as in kind traction.
+    `specific_wear_rate`: Archard's, under this lubrication. `permissible_film_ratio`: the smallest lambda ratio at
+    which a test with this oil and finish showed no micropitting. `mean_particle_volume`: mean volume of wear particles,
+    measured (AFM) or of kinds wear and running-in, for their number per hour. `boundary_friction`: friction coefficient
+    of asperity contacts. `bulk_temperature`: of both bodies below their surfaces, at which films are solved, or
+    `heat_balance`, from which it follows; without both the bodies are as warm as the oil. A given `oil.viscosity`
+    follows it by `oil.temperature_viscosity` from `oil.temperature`; without these it is that at the bulk temperature.
     """
 
     OTHER_KEYS: ClassVar[tuple[str, ...]] = ()
@@ -98,6 +99,7 @@ class ElementModel(Table):
     oil: OilScene | None = None
     thermal: Literal["off", "lumped", "full"] = "lumped"
     rms_roughness: PositiveLength | None = None
+    correlation_length: PositiveLength | None = None
     specific_wear_rate: Annotated[WearCoefficient, Field(ge=0)] | None = None
     permissible_film_ratio: Annotated[Ratio, Field(gt=0)] | None = None
     mean_particle_volume: Annotated[Volume, Field(gt=0)] | None = None

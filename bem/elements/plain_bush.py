@@ -69,10 +69,9 @@ class PlainBushModel(ElementModel):
     `clearance`: bore less shaft diameter; `bore` may stand in place of either. `wall`: thickness of the bush; without
     it the material of the bush has no end. `housing`: material around a bush with a wall, steel without it. `speed` or
     `oscillation`. `friction`: coefficient of the whole bush; without it that of `DRY_FRICTION`, or with an oil that of
-    film and asperities. `correlation_length`: of the ground shaft across its grooves (decay to 1/e), 6.5 um without
-    it, and ten times that along them; `lay`: grooves around the shaft or along its axis. `pv_limit`: highest
-    mean pressure times sliding speed. `maximum_temperature`: of the bush.
-    `permitted_wear`: depth at the load line at which the bush is worn out.
+    film and asperities. `correlation_length`: of the ground shaft; `lay`: grooves around the shaft or along its axis.
+    `pv_limit`: highest mean pressure times sliding speed. `maximum_temperature`: of the bush. `permitted_wear`: depth
+    at the load line at which the bush is worn out.
     """
 
     OTHER_KEYS: ClassVar = ("bore",)
@@ -88,7 +87,6 @@ class PlainBushModel(ElementModel):
     speed: Annotated[RotationSpeed, Field(gt=0)] | None = None
     oscillation: OscillationScene | None = None
     friction: Annotated[Ratio, Field(gt=0, lt=2)] | None = None
-    correlation_length: PositiveLength | None = None
     lay: Literal["around", "axial"] = "around"
     pv_limit: Annotated[PressureVelocity, Field(gt=0)] | None = None
     maximum_temperature: Temperature | None = None

@@ -1,9 +1,9 @@
 """Scenes with rough surfaces of one contact of a machine element: mixed friction, running-in, surface temperature.
 
 The roughness of an element is one number, the rms height of both surfaces together. Its scenes need surfaces: both
-bodies get random ones of equal rms height, with the correlation lengths of a usual finish (`FINISHES`). These do not
-depend on the size of the contact; the grid resolves them. They are assumed, and with the rms height they decide how
-much the asperities carry. Measured surfaces may replace them.
+bodies get random ones of equal rms height, with the correlation lengths of a usual finish (`FINISHES`), which are
+assumed, or with the element's own. These do not depend on the size of the contact; the grid resolves them. With the rms
+height they decide how much the asperities carry. Measured surfaces may replace them.
 """
 
 from __future__ import annotations
@@ -101,14 +101,25 @@ def finish_lengths(model: ElementModel) -> tuple[float, float] | None:
         return None
     if model.element not in FINISHES:
         return _bush_lengths(model)  # type: ignore[arg-type]
-    return PROCESSES[FINISHES[model.element]].lengths("y")
+    return _lengths_of(FINISHES[model.element], model.correlation_length)
+
+
+def _lengths_of(name: ProcessName, own: float | None) -> tuple[float, float]:
+    """Return the correlation lengths across and along the grooves of a process [m], with the former of one's own."""
+    process = PROCESSES[name]
+    assert process.across is not None
+    assert process.along is not None
+    across = own or process.across
+    return across, across * process.along / process.across
 
 
 def finish_words(model: ElementModel) -> str:
-    """Return a sentence's part on the assumed finish: process and correlation length across its grooves."""
+    """Return a sentence's part on the finish: process and correlation length across its grooves, if assumed."""
     name = FINISHES.get(model.element, "ground")
     lengths = finish_lengths(model)
     assert lengths is not None
+    if model.correlation_length is not None:
+        return f"the roughness is random, with the element's correlation length of {si(min(lengths), 'm')}"
     return (
         f"the roughness is that of {name} surfaces (correlation length {si(min(lengths), 'm')}), which is assumed and "
         "decides how much the asperities carry: measured surfaces are better"
@@ -116,7 +127,7 @@ def finish_words(model: ElementModel) -> str:
 
 
 def _finish(model: ElementModel, rms_height: float) -> dict[str, Any]:
-    """Return the table [surface] of a body: random Gaussian heights of an rms value [m], lengths of the finish."""
+    """Return the table [surface] of a body: random Gaussian heights of an rms value [m], with lengths."""
     name = FINISHES[model.element]
     process = PROCESSES[name]
     found: dict[str, Any] = {"process": name, "rms_height": rms_height}
@@ -124,6 +135,8 @@ def _finish(model: ElementModel, rms_height: float) -> dict[str, Any]:
         found["lay"] = "y"
     if (process.skewness, process.kurtosis) != (0.0, 3.0):
         found |= {"skewness": 0.0, "kurtosis": 3.0}
+    if model.correlation_length is not None:
+        found["correlation_length"] = math.sqrt(math.prod(_lengths_of(name, model.correlation_length)))
     return found
 
 
@@ -363,11 +376,7 @@ def _bush_lengths(model: PlainBushModel) -> tuple[float, float]:
 
 def ground_lengths(model: PlainBushModel) -> tuple[float, float]:
     """Return the correlation lengths across and along the grooves [m]."""
-    ground = PROCESSES["ground"]
-    assert ground.across is not None
-    assert ground.along is not None
-    across = model.correlation_length or ground.across
-    return across, across * ground.along / ground.across
+    return _lengths_of("ground", model.correlation_length)
 
 
 def bush_rubbing_scene(

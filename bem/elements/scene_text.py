@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from bem.elements.plain_bush import PlainBushModel
-from bem.elements.rough_scenes import ground_lengths
+from bem.elements.rough_scenes import finish_lengths
 from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import si
 from bem.scenes.load import dumped
@@ -71,19 +71,24 @@ _GROOVES = (
     "    # random, of the element's rms_roughness; correlation_length: geometric mean of {across} across the grooves "
     "(the element's) and {along} along them"
 )
-"""Comment on the ground shaft of a bush with a correlation length of its own."""
+"""Comment on grooved surfaces of an element with a correlation length of its own."""
+
+
+_OWN_LENGTH = "    # random, of the element's rms_roughness and correlation_length: put your measured map here"
+"""Comment on surfaces without grooves of an element with a correlation length of its own."""
 
 
 def element_scene_text(element: Element, table: Mapping[str, Any]) -> str:
     """Return a scene of an element, a table of `Element.scene` or `Element.path_scene`, as TOML text with comments."""
     comments = {}
     bush = element.model
-    if isinstance(bush, PlainBushModel):
-        if isinstance(table["upper"]["material"], Mapping) and bush.wall is not None and table["kind"] == "traction":
-            comments["upper.material"] = _THIN_WALL
-        if bush.correlation_length is not None:
-            across, along = (si(one, "m", 4) for one in ground_lengths(bush))
-            comments["lower.surface"] = _GROOVES.format(across=across, along=along)
+    thin = isinstance(bush, PlainBushModel) and bush.wall is not None and table["kind"] == "traction"
+    if thin and isinstance(table["upper"]["material"], Mapping):
+        comments["upper.material"] = _THIN_WALL
+    if element.model.correlation_length is not None and element.model.rms_roughness is not None:
+        shorter, longer = (si(one, "m", 4) for one in sorted(finish_lengths(element.model) or ()))
+        words = _OWN_LENGTH if shorter == longer else _GROOVES.format(across=shorter, along=longer)
+        comments |= dict.fromkeys(("lower.surface", "upper.surface"), words)
     return scene_text(table, bulk_estimated=element.bulk_estimated, comments=comments)
 
 

@@ -11,7 +11,7 @@ from bem.cli import build
 from bem.elements.element import KINDS, LIFE, MIXED, MODELS, element_template, load_element
 from bem.elements.model import BOUNDARY_FRICTION
 from bem.elements.rough_scenes import FINISHES, finish_lengths, patch_over
-from bem.elements.scene_text import scene_text
+from bem.elements.scene_text import element_scene_text, scene_text
 from bem.grid import Grid
 from bem.scenes import get_kind
 
@@ -111,6 +111,28 @@ def test_one_finish_has_one_correlation_length_under_every_contact():
     gears = element_of("gear-pair")
     across, along = load_scene(gears.scene(gears.worst(), "friction")).lower.surface.correlation_lengths
     assert (across, along) == pytest.approx((6.5e-6, 65e-6))  # grooves of grinding along the teeth
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize(
+    ("name", "along", "words"),
+    [
+        ("rolling-bearing", 9e-6, "rms_roughness and correlation_length: put your measured map here"),
+        ("gear-pair", 90e-6, "geometric mean of 9 um across the grooves (the element's) and 90 um along them"),
+        ("cam-follower", 90e-6, "geometric mean of 9 um across the grooves (the element's) and 90 um along them"),
+        ("piston-ring", 9e-6, "rms_roughness and correlation_length: put your measured map here"),
+    ],
+)
+def test_an_elements_own_correlation_length_is_that_of_its_scenes(name, along, words):
+    element = element_of(name, correlation_length="9 um")
+    made = element.scene(with_film(element), "friction")
+    scene = load_scene(made)
+    for body in (scene.lower, scene.upper):
+        assert body.surface.correlation_lengths == pytest.approx((9e-6, along), rel=1e-9, abs=0)
+    assert scene.grid.lengths[0] / scene.grid.shape[0] <= 9e-6 / 3.25 * (1 + 1e-9)
+    assert "correlation length of 9 um" in made["description"]
+    assert "assumed and decides" not in made["description"]
+    assert element_scene_text(element, made).count(words) == 2
 
 
 @pytest.mark.internal
