@@ -139,7 +139,11 @@ def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[f
     if film is not None:
         coefficient = f"friction coefficient {film.power / slid:.3g}"
         if film.asperity_share < LEAST_ASPERITY_SHARE:
-            return film.power, f"{coefficient}, of the film"
+            journal = journal_of(model, film)
+            around = (
+                "" if journal is None else f"; about {journal.friction:.2g} by an estimate as a full journal bearing"
+            )
+            return film.power, f"{coefficient}, of the film{around}"
         if film.solved:
             return film.power, (
                 f"{coefficient} of film and asperities, by kind friction with a ground shaft and a boundary friction "

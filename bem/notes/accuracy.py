@@ -186,4 +186,12 @@ _WIDER_CAUSES = {NoBar.STRESS_OF_SHARP: NoBar.SHARP_PRESSURE}
 
 def named(names: Iterable[str]) -> list[str]:
     """Return the names of figures in words."""
-    return [" ".join(name.split("_")).replace("von mises", "von Mises") for name in dict.fromkeys(names)]
+    known = {name: " ".join(name.split("_")).replace("von mises", "von Mises") for name in names}
+    return [_OTHER_NAMES.get(name, words) for name, words in known.items()]
+
+
+_OTHER_NAMES = {
+    "loaded_contact_load": "the contact load with the oil of the loaded zone",
+    "loaded_friction": "the friction with the oil of the loaded zone",
+}
+"""Words for figures whose keys read like others."""

@@ -228,10 +228,10 @@ BUSH_BOUNDS = define(
     "bush-film-bounds",
     CAUTION,
     "The film of this bush is known only between two bounds.",
-    "The film is {share:.0%} of the radial clearance, and its pressure reaches far around the shaft. Of an endless "
-    "cylinder on a flat, from whose ends nothing leaks, it is {film:si m} thick with a friction coefficient of "
-    "{friction:.2g}, which is too thick; by an estimate as a rigid journal bearing of this length it is {journal:si m} "
-    "thick with {turning:.2g}, which is too thin, as the bush does not flatten there.",
+    "The film is {share:.0%} of the radial clearance, and its pressure reaches far around the shaft. It is at most "
+    "{film:si m} thick, as of an endless cylinder on a flat, from whose ends nothing leaks (friction coefficient "
+    "{friction:.2g}), and by an estimate at least {journal:si m}, as of a rigid journal bearing of this length, which "
+    "does not flatten (friction coefficient {turning:.2g}).",
     "Judge touching by the lower bound, or solve it with a program for elastic journal bearings.",
 )
 BUSH_WARMER_THAN_OIL = define(

@@ -278,6 +278,8 @@ def test_a_film_that_reaches_far_around_stands_between_two_bounds():
     assert not {BUSH_FLOATS.code, BUSH_LEAKS.code} & set(codes(found))
     low, high = (f"{note.values[name] / 0.3e-6:.2g}" for name in ("journal", "film"))
     assert dict(answer(element, runs))["lambda ratio"].startswith(f"between about {low} and {high}: minimum film")
+    turning = f"about {journal.friction:.2g} by an estimate as a full journal bearing"
+    assert turning in dict(answer(element, runs))["friction power"]
     assert columns([element], [runs])["journal_bearing_film_estimate [m]"] == [note.values["journal"]]
     for kind in ("traction", "friction"):
         about = element.scene(element.found.contacts[0], kind)["description"]

@@ -116,3 +116,10 @@ def test_figures_without_error_bars_for_one_cause_have_one_note():
     assert one_note_per_cause(sharp[1:]) == [sharp[1]]
     few = [no_error_bar(["load"], NoBar.EVEN_CELLS, fewest=n) for n in (8, 12)]
     assert one_note_per_cause(few) == few
+
+
+def test_figures_with_another_oil_volume_without_bars_are_named_in_words():
+    """The keys loaded_contact_load and loaded_friction were read as a loaded friction."""
+    said = str(no_error_bar(["loaded_contact_load", "loaded_friction"], NoBar.OF_KIND, why="they are for comparison"))
+    assert "the friction with the oil of the loaded zone" in said
+    assert "loaded friction" not in said
