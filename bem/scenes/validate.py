@@ -13,6 +13,7 @@ from bem.arguments import did_you_mean
 from bem.errors import InputError
 from bem.laws import Law, laws_of
 from bem.materials import CATALOGUE
+from bem.plausibility import range_of_key
 from bem.scenes.laws import LawOrNumber
 from bem.scenes.units import Dimension, Number
 from bem.scenes.walk import fields_of_table, literals, members_of, unwrap, without_none
@@ -157,16 +158,22 @@ def _is_number(value: Any) -> bool:
 
 
 def _numbers_without_unit(message: str, table: Any, annotation: Any) -> str:
-    """Return which keys of a table that a message names are numbers without a unit, and in which unit they are read."""
+    """Return which numbers of a table have no unit, and in which they are read: those of keys that a message names, and
+    those outside their usual range."""
     if not isinstance(table, dict):
         return ""
     fields, found = fields_of_table(without_none(annotation)), []
     for name, value in table.items():
-        if not _is_number(value) or not re.search(rf"\b{re.escape(str(name))}\b", message):
+        if not _is_number(value):
             continue
         metadata = () if name not in fields else _metadata_of(fields[name])
         dimension = next((item for item in _spread(metadata) if isinstance(item, Dimension)), None)
         if name in fields and (dimension is None or not dimension.unit):
+            continue
+        usual = None if dimension is None else range_of_key(str(name), dimension.unit)
+        unusual = usual is not None and not usual.low <= abs(value) <= usual.high
+        spelled = re.escape(str(name)).replace("_", "[_ ]")
+        if not unusual and not re.search(rf"\b{spelled}\b", message):
             continue
         read = f"as {value:g} {dimension.unit}" if dimension is not None else "in SI units"
         found.append(f"{name} = {value:g} has no unit and is read {read}")

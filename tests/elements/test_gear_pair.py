@@ -401,3 +401,10 @@ def test_marked_contacts_are_at_their_marks():
     header, first, *_ = element.csv().splitlines()
     assert header.endswith(",mark")
     assert first.endswith(",A")
+
+
+def test_a_module_without_unit_is_named_where_the_teeth_do_not_mesh():
+    """The message is on the contact ratio; 25 is read as 25 m."""
+    table = tomllib.loads(element_template("gear-pair")) | {"name": "gears"}
+    with pytest.raises(InputError, match=r"contact ratio.*module = 25 has no unit and is read as 25 m"):
+        load_element(table | {"module": 25})

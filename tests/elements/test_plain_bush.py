@@ -772,6 +772,8 @@ def test_a_length_without_unit_that_does_not_fit_is_said_to_be_in_m(key, value, 
     with pytest.raises(InputError) as told:
         load_element(WATER | {key: f"{value} m"})
     assert "has no unit" not in str(told.value)
+    with pytest.raises(InputError, match="shaft_diameter = 25 has no unit and is read as 25 m"):
+        load_element(WATER | {"shaft_diameter": 25})
     with pytest.raises(InputError, match=r"bore = 0\.01 has no unit and is read in SI units"):
         load_element(without(WATER, "clearance") | {"bore": 0.01})
 
