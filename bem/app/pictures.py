@@ -248,8 +248,8 @@ def curve_picture(arrays: Arrays, name: str, case: str = "") -> Picture:
 
 
 def _film_ends(arrays: Arrays, item: Variable) -> tuple[float, float] | None:
-    """Return the ends along x [m] between which a film is shown, as its figure does; None of other variables."""
-    if item.dims[-1] != "film_x" or "film_pressure" not in arrays:
+    """Return the ends along x [m] between which a film is shown, as its figure does; None of others."""
+    if item.dims[-1] != "film_x" or not {"film_pressure", "film_thickness"} <= {*arrays}:
         return None
     pressure = np.asarray(arrays["film_pressure"].values, dtype=np.float64)
     return loaded_part(np.asarray(arrays["film_x"].values, dtype=np.float64), pressure)

@@ -231,6 +231,8 @@ def test_a_film_is_cropped_on_the_page_as_in_its_figure():
     assert layout["yaxis"]["range"] == pytest.approx([0.0, 8.0])
     assert layout["yaxis"]["title"]["text"] == "µm"
     assert curve_picture(arrays, "film_pressure")["layout"]["xaxis"]["range"] == [low, high]
+    alone = Arrays({name: item for name, item in variables.items() if name != "film_thickness"}, arrays.coords)
+    assert "range" not in curve_picture(alone, "film_pressure")["layout"]["xaxis"]  # kind film is shown whole
 
 
 def test_the_browser_draws_no_empty_charts_and_names_case_and_temperature():
