@@ -397,6 +397,7 @@ _HEADS = {
     "slide_roll_ratio": "slide-roll",
     **_BY_FORMULA,
     "solved_minimum_film [m]": "minimum film thickness",
+    "journal_bearing_film_estimate [m]": "film as journal bearing (estimate)",
     "solved_film_over_roughness": "lambda ratio",
     "friction": "friction coefficient",
     "friction_power [W]": "friction power",

@@ -14,11 +14,13 @@ from functools import partial
 
 from bem.elements.bearing_life import life_notes, life_rows
 from bem.elements.bush_answer import (
+    JOURNAL,
     FilmOfBush,
     bush_notes,
     bush_rows,
     bush_temperature,
     friction_power_of,
+    journal_of,
     pressure_words,
     thick_film_words,
 )
@@ -352,7 +354,8 @@ def all_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...]:
 def table_columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]:
     """Return the columns of solved films, see `bem.elements.running.columns`; none without films.
 
-    Of a bush the friction power with asperities and the bush's temperature stand beside them. It has no wear per pass:
+    Of a bush the friction power with asperities, the bush's temperature and, beside a film that reaches far around, the
+    estimated film of a journal bearing stand beside them. It has no wear per pass:
     the load stays on one place of the bush.
     """
     found = columns(element, runs) if runs else {}
@@ -360,6 +363,9 @@ def table_columns(element: Element, runs: Sequence[Running]) -> dict[str, list[f
         return found
     found = {name: values for name, values in found.items() if not name.startswith("wear_per_pass")}
     film = film_of_bush(element, [one for one in runs if one.converged])
+    journal = None if film is None else journal_of(element.model, film)
+    if journal is not None:
+        found[JOURNAL] = [journal.minimum_thickness]
     power = friction_power_of(element.model, film)[0]
     if power is None:
         return found

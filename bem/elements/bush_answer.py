@@ -46,6 +46,9 @@ BOUNDED = 1 / 30
 rigid endless cylinder's load (Martin's film, dp/dx = 0 at the outlet) 8 % is then carried beyond 45 degrees before the
 load line, where the gap of shaft and bush is no parabola and liquid leaves at the ends; of a film of c/100 2.6 %."""
 
+JOURNAL = "journal_bearing_film_estimate [m]"
+"""Column of the estimated film of a rigid journal bearing: the lower bound beside a film that reaches far around."""
+
 
 @dataclass(frozen=True)
 class FilmOfBush:

@@ -21,7 +21,7 @@ from pydantic_core import PydanticCustomError
 
 from bem.elements.answer import film_of_bush, least_film_ratio, likely_power, place_words, unsolved_ratio
 from bem.elements.bearing_life import bearing_life, life_of_film
-from bem.elements.bush_answer import bush_temperature, friction_power_of, journal_of, wear_life
+from bem.elements.bush_answer import JOURNAL, bush_temperature, friction_power_of, journal_of, wear_life
 from bem.elements.element import Element, load_element, read_element
 from bem.elements.gear_pair import GearModel
 from bem.elements.gear_scuffing import scuffing_of
@@ -37,8 +37,6 @@ from bem.scenes.values import plain_value
 
 _LOADS = ("radial_load", "torque")
 """Keys that hertz_pressure stands in place of."""
-JOURNAL = "journal_bearing_film_estimate [m]"
-"""Column of the estimated film of a rigid journal bearing: the lower bound beside a film that reaches far around."""
 
 
 def load_cases(source: str | Path, rows: str | Path) -> tuple[Element, ...]:

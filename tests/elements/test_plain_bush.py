@@ -281,6 +281,7 @@ def test_a_film_that_reaches_far_around_stands_between_two_bounds():
     turning = f"about {journal.friction:.2g} by an estimate as a full journal bearing"
     assert turning in dict(answer(element, runs))["friction power"]
     assert columns([element], [runs])["journal_bearing_film_estimate [m]"] == [note.values["journal"]]
+    assert table_columns(element, runs)["journal_bearing_film_estimate [m]"] == [note.values["journal"]]
     for kind in ("traction", "friction"):
         about = element.scene(element.found.contacts[0], kind)["description"]
         assert "upper bound" in about
