@@ -136,6 +136,10 @@ def test_conditional_methods_are_cited_where_a_scene_uses_them_alone():
     for settings in ((), (defect,)):
         assert ("kingsbury1958" in sources("wear-cylinder-scar", *settings)) == bool(settings)
     assert "patir1978" in sources("stribeck-mineral-oil", "sharing.flow_factors=surfaces")
+    fatigue = {"dangvan1973", "morales2011"}
+    assert not fatigue & set(sources("running-in-life")), "its plan says: fatigue skipped"
+    assert fatigue <= set(sources("micropitting-rig"))
+    assert "dangvan1973" not in sources("micropitting-rig", 'fatigue.criterion="crossland"')
     waves = {"greenwood1994", "hooke2000", "morales2011"}
     for smooth, rough in (("traction-curve", "rough-roller-waves"), ("film-ball", "rough-film-waves")):
         assert not waves & set(sources(smooth))

@@ -218,6 +218,7 @@ def test_a_sweep_over_places_has_mean_and_standard_deviation():
         "contact_area_fraction": [0.01, 0.02, 0.06],
         "contact_area_fraction_error": [0.001, 0.001, 0.001],
         "max_pressure_Pa": [1e9, 1e9, None],
+        "load_N": [0.02, 0.02 * (1 + 1e-10), 0.02],
     }
     rows = scatter_of_places(figures)
     assert [row[0] for row in rows] == ["contact area fraction"], "a place without a value has no mean"

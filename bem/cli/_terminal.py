@@ -455,6 +455,10 @@ def print_points(figures: Mapping[str, Any]) -> None:
         table(("figure", "mean", "standard deviation"), rows, title=f"over {len(figures[names[0]])} surfaces")
 
 
+_GIVEN = 1e-6
+"""Standard deviation over the mean up to which a figure is one that was given, such as a load or the hardness."""
+
+
 def scatter_of_places(figures: Mapping[str, Any]) -> list[tuple[str, str, str]]:
     """Return name, mean and standard deviation of the figures of a sweep over surfaces alone: files of several places,
     or seeds; none of other sweeps, nor where a point has several cases."""
@@ -475,6 +479,8 @@ def scatter_of_places(figures: Mapping[str, Any]) -> list[tuple[str, str, str]]:
             continue
         mean = math.fsum(values) / len(values)
         deviation = math.sqrt(math.fsum((value - mean) ** 2 for value in values) / (len(values) - 1))
+        if deviation <= _GIVEN * abs(mean):
+            continue
         words, shown = with_error(name, {name: mean})
         rows.append((words, shown, with_error(name, {name: deviation})[1]))
     return rows

@@ -329,10 +329,8 @@ def _show(surface: Surface, name: str) -> None:
     if any(words == _HURST and "±" in value for words, value in rows):
         print(f"± of the {_HURST}: standard deviation over maps of this size, by the scatter of the spectrum's rings.")
     if error.Sq > 0:
-        print(
-            f"± of Sq and Sdq: scatter of maps of this size (standard deviation), from the {error.patches:.0f} "
-            "independent patches that the map holds."
-        )
+        patches = f"the {error.patches:.0f} independent patches" if error.patches >= 1.5 else "fewer than two patches"
+        print(f"± of Sq and Sdq: scatter of maps of this size (standard deviation), from {patches} that the map holds.")
         if error.patches < FEWEST_PATCHES:
             print(
                 f"These are few patches (below {FEWEST_PATCHES}): lone heights or waves as long as the map decide Sq, "

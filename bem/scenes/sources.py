@@ -27,6 +27,8 @@ WAVES = {
     "hooke2000": "waves of roughness in the film",
     "morales2011": "waves of roughness in the film",
 }
+MICROPITTING = {"morales2011": "micropitting"}
+DANG_VAN = {"dangvan1973": "fatigue"}
 STIFFNESS = {
     "ting1996": "surface of an anisotropic half-space",
     "willis1966": "contact of anisotropic bodies",

@@ -342,8 +342,8 @@ def _finish(
         )
     if missing and not asked.fill:
         raise SurfaceFileError(
-            f"{file}: {missing} of {heights.size} points are missing; read it with fill=True or crop it with the "
-            "instrument's software"
+            f"{file}: {missing} of {heights.size} points are missing; have them filled (fill=True; on the command "
+            "line leave --no-fill out) or crop the map with the instrument's software"
         )
     try:
         if asked.despike is not None:

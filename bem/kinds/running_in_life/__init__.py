@@ -13,8 +13,6 @@ ALSO: tuple[str, ...] = (
 )
 CITES = {
     "johnson1972": "load sharing of film and asperities",
-    "morales2011": "micropitting",
-    "dangvan1973": "fatigue",
     "reynolds1886": "Reynolds equation",
     "polonsky1999": "conjugate gradients of the contact",
     "kalker1977": "contact as a quadratic program",

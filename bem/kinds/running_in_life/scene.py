@@ -48,6 +48,10 @@ class RunningInLifeScene(OneLoadScene):
         particles = self.particles
         if self.fatigue is not None or (particles is not None and isinstance(particles.criterion, StressCriterion)):
             yield sources.STRESSES
+        if self.fatigue is not None:
+            yield sources.MICROPITTING
+            if self.fatigue.criterion == "dang_van":
+                yield sources.DANG_VAN
 
     @model_validator(mode="after")
     def _cylinder_and_film(self) -> RunningInLifeScene:

@@ -74,7 +74,8 @@ class LifeWear(Table):
 
     law: Annotated[Criterion, LawKey("criterion", takes=_by_pressure)] = key(
         "Wear law, with its parameters: archard, archard_over_hardness or energy; specific_wear_rate is the worn "
-        "volume per load and sliding distance, distance the sliding of one cycle.",
+        "volume of each body that wears per load and sliding distance (both together lose twice as much; "
+        "upper_over_lower changes it), distance the sliding of one cycle.",
         "basic",
         example="archard",
     )
