@@ -136,6 +136,31 @@ def largest_point_load(contact: PointContact, speeds: Sequence[float], cells: in
     return largest if contact.deforming_load is None else (largest**4 / contact.deforming_load) ** (1 / 3)
 
 
+def moes_of_solved_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> tuple[bool, float]:
+    """Return whether films under a load [N] are extrapolated, and Moes' L of the one that is solved, for plans.
+
+    Parameters
+    ----------
+    contact : the smooth contact and its oil.
+    speeds : (u1, u2) of flat and ball [m/s].
+    load : on the film [N].
+    cells : along an axis of the grid.
+    """
+    largest = largest_point_load(contact, speeds, cells)
+    solved, oil = min(load, largest), contact.lubricant
+    scales = point_scales(solved, contact.radii, contact.film_modulus(solved), abs(sum(speeds)), oil.viscosity)
+    return load > largest, oil.pressure_viscosity * scales.pressure
+
+
+def thinned_at(contact: PointContact, speeds: Sequence[float], load: float) -> bool:
+    """Return True if films are solved under a load [N] to find the oil that inlet heating thins, for plans."""
+    if contact.heat is None:
+        return False
+    from bem.lubrication.thermal.inlet_thinning import FACTOR_TOLERANCE
+
+    return abs(math.log(_inlet(contact, speeds, load).factor)) > FACTOR_TOLERANCE
+
+
 def film_with_heat(
     contact: PointContact,
     speeds: Sequence[float],

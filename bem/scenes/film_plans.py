@@ -5,6 +5,9 @@ Knows what a scene says of its films and speeds; no kind of scene, no film. Veri
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 from bem.scenes.planner import SEARCHED_IN_SINGLE, Step
 
 _IN_CONTACT = "; that of the surfaces in contact at each speed"
@@ -23,27 +26,76 @@ _LIGHT_PRESSURE = 0.15e9
 """Hertz pressure [Pa] beyond which the cost of a line film grows in proportion to the pressure."""
 
 
-def of_curve(speeds: int, points: int, cells: int | None, hertz_pressure: float) -> Step:
-    """Return the step of the films of a curve.
+_COARSE_CELLS = 64
+"""`bem.friction.point_film.BALANCE_CELLS`."""
+_BALL_FILM, _NEARLY_ISOVISCOUS, _HARD = 2e-5, 0.4, 10.0
+"""Processor time of a film over cells squared [s], Moes' L below which films take many times as long, and how many:
+0.13 s at L of 0.5 to 6 and 0.65 to 0.96 s below 0.2 on 64 cells, 0.2 and 1.9 to 2.5 s on 96 (ellipse 1 : 10)."""
+
+
+def _for_speeds(speeds: int) -> str:
+    return "for the speed" if speeds == 1 else f"for each of {speeds} speeds of a curve"
+
+
+def of_curve(speeds: int, points: int, hertz_pressure: float) -> Step:
+    """Return the step of the films of a curve of a cylinder.
 
     Parameters
     ----------
     speeds : number of speeds.
-    points : nodes of a cylinder's film.
-    cells : cells along an axis of a ball's film; None for a cylinder.
+    points : nodes of a film.
     hertz_pressure : highest pressure of the smooth contact [Pa].
     """
-    what = "for the speed" if speeds == 1 else f"for each of {speeds} speeds of a curve"
-    if cells is None:
-        seconds = speeds * (0.02 + 1.7e-5 * points) * max(1.0, hertz_pressure / _LIGHT_PRESSURE)
-        return Step("films", f"about 5 {what}, most of them on a coarser mesh", seconds=seconds, memory=_HELD * points)
-    seconds = speeds * (0.05 + 6e-5 * cells**2)  # measured: 8 speeds on 80 and on 128 cells
-    return Step(
-        "films",
-        f"about 5 {what}, some of them on fewer cells",
-        seconds=seconds,
-        memory=900.0 * cells**2,
-    )
+    seconds = speeds * (0.02 + 1.7e-5 * points) * max(1.0, hertz_pressure / _LIGHT_PRESSURE)
+    what = f"about 5 {_for_speeds(speeds)}, most of them on a coarser mesh"
+    return Step("films", what, seconds=seconds, memory=_HELD * points)
+
+
+@dataclass(frozen=True)
+class BallFilms:
+    """Films of one balance of a ball.
+
+    Each trial has a film of its own, and each grid one under the whole load. Films beyond the largest solved load are
+    extrapolated from one film; with heat each load has its own oil, and so its own film. Thinned oil is found from
+    coarse films at two loads, five in all.
+
+    Attributes
+    ----------
+    cells : along an axis of the film.
+    extrapolated : films are extrapolated in load.
+    heated : films have heat.
+    thinned : inlet heating thins the oil.
+    material : Moes' L of the film that is solved.
+    """
+
+    cells: int
+    extrapolated: bool
+    heated: bool
+    thinned: bool
+    material: float
+
+    @property
+    def numbers(self) -> tuple[int, int]:
+        """Numbers of films on the coarse and on the wanted cells."""
+        coarse, fine = (4, 4) if self.heated or not self.extrapolated else (1, 1)
+        if self.cells <= _COARSE_CELLS:
+            coarse, fine = 0, max(coarse, fine)
+        return coarse + 5 * self.thinned, fine
+
+    @property
+    def seconds(self) -> float:
+        """Processor time [s]."""
+        coarse, fine = self.numbers
+        squares = coarse * min(self.cells, _COARSE_CELLS) ** 2 + fine * self.cells**2
+        return _BALL_FILM * squares * (_HARD if self.material < _NEARLY_ISOVISCOUS else 1.0)
+
+
+def of_ball_curve(films: Sequence[BallFilms]) -> Step:
+    """Return the step of the films of a curve of a ball, given those of each speed."""
+    most = max(sum(one.numbers) for one in films)
+    what = f"about {most} {_for_speeds(len(films))}, some of them on fewer cells"
+    seconds = sum(one.seconds for one in films)
+    return Step("films", what, seconds=seconds, memory=900.0 * max(one.cells for one in films) ** 2)
 
 
 def heat(thermal: str, speeds: int, cells: int, *, ball: bool) -> Step:

@@ -11,8 +11,9 @@ from bem.campaigns import campaign_of, compute
 from bem.contact import solve_contact
 from bem.convolution import DisplacementOperator, displacement_operator
 from bem.errors import InputError, Status
+from bem.friction import point_film
 from bem.runs import plan_scene
-from bem.scenes import build, library
+from bem.scenes import build, film_plans, library
 from bem.scenes.kind import kind_names
 from bem.scenes.planner import SEARCHED_IN_SINGLE
 from bem.scenes.plans import CONVOLUTION, convolutions, stiffest
@@ -305,3 +306,51 @@ def test_heat_of_lubricated_wear_is_planned(name):
     assert cold["heat of contacts"].skipped
     assert warm["heat of contacts"].seconds > 0
     assert warm["film tables"].seconds > 1.2 * cold["film tables"].seconds
+
+
+def ball_in_oil(thermal, speed, load):
+    surface = {"kind": "generated", "rms_height": "300 nm" if speed > 1 else "100 nm", "correlation_length": "20 um"}
+    return {
+        "kind": "friction",
+        "name": "ball",
+        "thermal": thermal,
+        "lower": {"material": "steel-52100", "surface": surface},
+        "upper": {"material": "steel-52100"},
+        "contact": {"radii": ["10 mm", "10 mm"], "loads": [load], "boundary_friction": 0.12},
+        "oil": {"grade": "ISO VG 46", "temperature": "80 degC"},
+        "speeds": {"values": [speed], "slide_roll_ratio": 0.1},
+        "grid": {"shape": [64, 64], "lengths": ["0.9 mm", "0.9 mm"], "periodic": [False, False]},
+        "film": {"cells": 72},
+        "sharing": {"oil_volume": "loaded"},
+        "outputs": {"errors": False},
+    }
+
+
+@pytest.mark.parametrize(
+    ("thermal", "speed", "load", "extrapolated"),
+    [("lumped", 4.0, 100, False), ("lumped", 0.4, 100, False), ("off", 0.4, 100, False), ("off", 0.4, 1000, True)],
+)
+def test_films_of_a_ball_are_counted_as_its_balance_solves_them(monkeypatch, thermal, speed, load, extrapolated):
+    """Five cheap films were planned at each speed, where heat gives each load a film of its own."""
+    solve, solved = point_film._solved, []
+
+    def counted(contact, speeds, load, cells):
+        solved.append(cells)
+        return solve(contact, speeds, load, cells)
+
+    monkeypatch.setattr(point_film, "_solved", counted)
+    point_film.KEPT.clear()
+    scene, plan = plan_scene(ball_in_oil(thermal, speed, load))
+    compute(campaign_of(scene))
+    numbers = film_plans.BallFilms(72, extrapolated, thermal == "lumped", speed == 4.0, 1.0).numbers
+    assert f"about {sum(numbers)} " in next(step.why for step in plan.steps if step.name == "films")
+    found = solved.count(64), solved.count(72)
+    assert sum(found) == len(solved)
+    assert all(planned / 1.5 <= count <= 1.5 * planned for planned, count in zip(numbers, found, strict=True)), found
+
+
+@pytest.mark.internal
+def test_films_of_a_ball_cost_more_where_viscosity_hardly_rises():
+    """At 0.27 m/s a bearing's films of 96 cells take 2 s each, at 4.8 m/s 0.13 s."""
+    slow, fast = (film_plans.BallFilms(96, True, True, True, material).seconds for material in (0.2, 2.0))
+    assert slow == pytest.approx(10 * fast)

@@ -13,6 +13,21 @@ _FILMS_AGAIN, _BALL_FILMS_AGAIN, _HEAT_AGAIN = 1.2, 0.7, 0.6
 cylinder's films was measured, 0.7 of a ball's, 0.4 to 0.8 of both with heat."""
 
 
+def _films_of_ball(scene: FrictionScene) -> list[film_plans.BallFilms]:
+    """Return the films of a balance of a ball at each speed."""
+    from bem.friction.point_film import moes_of_solved_film, thinned_at
+    from bem.friction.smooth import PointContact
+
+    contact, cells = scene.curve_setup("off").smooth, scene.film.cells
+    assert isinstance(contact, PointContact)
+    found = []
+    for pair in scene.speeds.build():
+        extrapolated, material = moes_of_solved_film(contact, pair, scene.load, cells)
+        thinned = thinned_at(contact, pair, scene.load)
+        found.append(film_plans.BallFilms(cells, extrapolated, contact.heat is not None, thinned, material))
+    return found
+
+
 def plan(scene: FrictionScene) -> Plan:
     """Plan the computation of one curve.
 
@@ -21,15 +36,14 @@ def plan(scene: FrictionScene) -> Plan:
     InputError : a patch that does not fit. InfeasibleError : a load that neither film nor surfaces can carry.
     """
     grid, speeds, coupled = scene.check(scene.film), len(scene.speeds.build()), scene.coupled
-    ball, cells = scene.contact.point_radii is not None, scene.film.cells
+    ball = scene.contact.point_radii is not None
     heat = film_plans.heat(scene.thermal, speeds, grid.cells, ball=ball)
     smooth = scene.smooth_contact()
-    films = film_plans.of_curve(
-        speeds,
-        scene.film.points,
-        cells if ball else None,
-        smooth.maximum_pressure if smooth is not None else 0.0,
-    )
+    if ball:
+        films = film_plans.of_ball_curve(_films_of_ball(scene))
+    else:
+        pressure = smooth.maximum_pressure if smooth is not None else 0.0
+        films = film_plans.of_curve(speeds, scene.film.points, pressure)
     # a further one of the four films of a balance, and the Fourier transforms of the continued patch
     waves = films.seconds / 4 + 0.3 * speeds
     again = _BALL_FILMS_AGAIN if ball else _FILMS_AGAIN
