@@ -234,22 +234,23 @@ def _read(file: Path, options: _Reading) -> Surface:
     from bem.cli._quantity import spacing_of_points
     from bem.errors import InputError
     from bem.surfaces import read_surface
-    from bem.surfaces.read import UnstatedScaleError, slope_in_metres, states_scale
+    from bem.surfaces.read import UnstatedScaleError, slope_in_metres, states_scale, unit_judged_by_caller
 
     sides, channel = spacing_of_points(options.spacing, "--spacing"), options.channel
     chosen = int(channel) if channel is not None and channel.isdigit() else channel
     try:
-        surface = read_surface(
-            file,
-            # a plain map is a surface already: levelling it again would change its statistics and open its seams
-            detrend=options.detrend or ("none" if file.suffix.lower() == ".npz" else "plane"),
-            fill=options.fill,
-            channel=chosen,
-            spacing=sides,
-            height_unit=options.height_unit,
-            despike=options.despike,
-            level_lines=options.level_lines,
-        )
+        with unit_judged_by_caller():  # which is refused below
+            surface = read_surface(
+                file,
+                # a plain map is a surface already: levelling it again would change its statistics and open its seams
+                detrend=options.detrend or ("none" if file.suffix.lower() == ".npz" else "plane"),
+                fill=options.fill,
+                channel=chosen,
+                spacing=sides,
+                height_unit=options.height_unit,
+                despike=options.despike,
+                level_lines=options.level_lines,
+            )
     except UnstatedScaleError as error:
         wants = {
             "how far its points are apart": None if sides else '--spacing "0.5 um"',

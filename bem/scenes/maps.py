@@ -53,13 +53,15 @@ def content_of(surface: MeasuredSurface) -> str:
 def read_map(surface: MeasuredSurface) -> Surface:
     """The measured map: read, levelled, filled and cropped."""
     from bem.surfaces import crop, read_surface
+    from bem.surfaces.read import unit_judged_by_caller
 
     asked = surface.model_dump(
         include={"detrend", "fill", "channel", "spacing", "height_unit", "despike", "level_lines"}
     )
 
     def read() -> Surface:
-        found = read_surface(surface.path, **asked)
+        with unit_judged_by_caller():  # the note on the unit of heights
+            found = read_surface(surface.path, **asked)
         return found if surface.crop is None else crop(found, surface.crop, centre=surface.centre)
 
     content = content_of(surface)

@@ -233,7 +233,7 @@ def _scale_of(body: str, path: str, scale: MapScale) -> MapScale | None:
     InputError : such a file without a spacing, or in metres by which its slopes are no surface's.
     """
     from bem.surfaces import read_surface
-    from bem.surfaces.read import slope_in_metres, states_scale
+    from bem.surfaces.read import slope_in_metres, states_scale, unit_judged_by_caller
 
     name = Path(path).name
     if states_scale(path):
@@ -248,7 +248,8 @@ def _scale_of(body: str, path: str, scale: MapScale) -> MapScale | None:
             f'--{body}: {name} does not say how far its points are apart; give --spacing, such as --spacing "0.5 um"'
         )
     if scale.height_unit is None:
-        slope = slope_in_metres(read_surface(path, spacing=scale.spacing))
+        with unit_judged_by_caller():
+            slope = slope_in_metres(read_surface(path, spacing=scale.spacing))
         if slope is not None:
             raise InputError(
                 f"--{body}: {name} does not say in which unit its heights are, and in metres they would have an rms "

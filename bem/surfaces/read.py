@@ -79,7 +79,7 @@ def read_surface(
     detrend: str = "plane",
     fill: bool = True,
     channel: str | int | None = None,
-    spacing: tuple[float, float] | None = None,
+    spacing: float | tuple[float, float] | None = None,
     height_unit: str | None = None,
     despike: float | None = None,
     level_lines: bool = False,
@@ -99,8 +99,8 @@ def read_surface(
     fill : True: missing points are filled by the harmonic surface through their neighbours (at most half of the
         map); False: a map with missing points is refused.
     channel : name or number of the channel where a file has several; the reader's default is its topography.
-    spacing : (dx, dy) [m], instead of what the file says, which metadata then has as `spacing_in_file`; needed where it
-        says nothing.
+    spacing : (dx, dy) [m], or one number for both, instead of what the file says, which metadata then has as
+        `spacing_in_file`; needed where it says nothing.
     height_unit : unit of the heights where the file does not say ("nm", "um", ...), refused where it says another and
         for those in metres always (.npz, formats of your own); .npy and tables are in metres without.
     despike : take out points that stand out of their neighbourhood by more than so many standard deviations (at least
@@ -117,14 +117,20 @@ def read_surface(
     SurfaceFileError : a file that is missing, empty, unreadable, truncated, not a height map, without units, or with
         missing points that may not or cannot be filled.
     InputError : arguments out of range.
+
+    Warns
+    -----
+    HeightUnitWarning : a table or .npy without `height_unit`, whose heights are no surface's if they are in metres.
     """
     messages = []
+    if isinstance(spacing, int | float):
+        spacing = (float(spacing), float(spacing))
     if detrend not in DETRENDINGS:
         messages.append(f"read_surface: detrend {detrend!r} is not one of {', '.join(DETRENDINGS)}")
     if height_unit is not None and height_unit not in METRES:
         messages.append(f"read_surface: height_unit {height_unit!r} is not one of {', '.join(METRES)}")
     if spacing is not None and not _are_lengths(spacing):
-        messages.append(f"read_surface: spacing {spacing!r} must be two positive, finite lengths [m]")
+        messages.append(f"read_surface: spacing {spacing!r} must be one or two positive, finite lengths [m]")
     if despike is not None and not (isinstance(despike, int | float) and despike >= LEAST_SPIKE):
         messages.append(
             f"read_surface: despike {despike!r} must be at least {LEAST_SPIKE:g} standard deviations, or None"
@@ -134,7 +140,7 @@ def read_surface(
     file = example_path(path) or Path(path)
     _check_file(file)
     _check_size(file, _MEMORY_PER_BYTE)
-    own = format_of(file)
+    own, unit_unstated = format_of(file), False
     if own is None:
         _check_kind(file)
     if own is not None:
@@ -145,11 +151,13 @@ def read_surface(
         _check_unit(file, "m", height_unit)
     elif file.suffix.lower() == ".npy":
         heights, cell, notes = _read_npy(file), None, {"format": "npy"}
+        unit_unstated = height_unit is None
     elif (listed := _read_list(file, spacing, height_unit)) is not None:
         heights, cell, notes = listed
         height_unit = None
     elif file.suffix.lower() in _TEXT and spacing is not None:
         heights, cell, notes = _read_table(file)[0], None, {"format": "table of numbers"}
+        unit_unstated = height_unit is None
     else:
         if spacing is None and _is_plain_table(file):
             raise _without_spacing(file)
@@ -165,7 +173,27 @@ def read_surface(
         cell = given
     if cell is None:
         raise _without_spacing(file)
-    return _finish(file, heights, cell, notes, _Treatment(detrend, fill, despike, level_lines))
+    found = _finish(file, heights, cell, notes, _Treatment(detrend, fill, despike, level_lines))
+    if unit_unstated and (slope := slope_in_metres(found)) is not None:
+        warnings.warn(
+            f"{file.name}: heights without a unit are taken for metres, in which their rms slope is {slope:.2g}; give "
+            'height_unit, such as height_unit="nm"',
+            HeightUnitWarning,
+            stacklevel=2,
+        )
+    return found
+
+
+@contextlib.contextmanager
+def unit_judged_by_caller() -> Iterator[None]:
+    """Suppress `HeightUnitWarning` where the caller refuses such heights, or has a note on them."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", HeightUnitWarning)
+        yield
+
+
+class HeightUnitWarning(UserWarning):
+    """Heights without a unit were taken for metres, and are then far steeper than any surface."""
 
 
 def write_surface(path: str | os.PathLike[str], surface: Surface) -> Path:
@@ -294,7 +322,8 @@ def states_scale(path: str | os.PathLike[str], channel: str | int | None = None)
     SurfaceFileError : a file that cannot be read.
     """
     try:
-        read_surface(path, detrend="none", channel=channel)
+        with unit_judged_by_caller():
+            read_surface(path, detrend="none", channel=channel)
     except UnstatedScaleError:
         return False
     return True

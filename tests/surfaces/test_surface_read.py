@@ -293,7 +293,8 @@ def test_tables(tmp_path):
 
 def test_npy(tmp_path):
     np.save(tmp_path / "map.npy", np.eye(4))
-    assert read_surface(tmp_path / "map.npy", spacing=(1e-6, 1e-6), detrend="none").heights[0, 0] == 1
+    with pytest.warns(UserWarning, match="height_unit"):  # a metre high on a micrometre
+        assert read_surface(tmp_path / "map.npy", spacing=(1e-6, 1e-6), detrend="none").heights[0, 0] == 1
     np.save(tmp_path / "text.npy", np.array([["a", "b"]]))
     with pytest.raises(SurfaceFileError, match="not a map"):
         read_surface(tmp_path / "text.npy", spacing=(1e-6, 1e-6))
@@ -317,3 +318,16 @@ def test_a_text_with_a_gap_says_the_line_and_what_stands_for_it(tmp_path, text, 
     (tmp_path / "a.txt").write_text(text + "1 2 3 4\n" * 3)
     with pytest.raises(SurfaceFileError, match=f"{told}.*write nan for missing points"):
         read_surface(tmp_path / "a.txt", spacing=(1e-6, 1e-6), height_unit="nm")
+
+
+def test_heights_without_a_unit_that_are_no_surface_in_metres_warn(tmp_path):
+    """A table in nanometres was read as metres, Sq 0.3 m, without a word; the command line refuses it."""
+    heights = 300 * np.random.default_rng(0).standard_normal((16, 12))
+    np.savetxt(tmp_path / "a.txt", heights)
+    with pytest.warns(UserWarning, match='height_unit="nm"'):
+        bare = read_surface(tmp_path / "a.txt", spacing=5e-7, detrend="none")
+    assert bare.heights == pytest.approx(heights, rel=1e-12)
+    pair = read_surface(tmp_path / "a.txt", spacing=(5e-7, 5e-7), height_unit="nm")  # pytest makes warnings errors
+    one = read_surface(tmp_path / "a.txt", spacing=5e-7, height_unit="nm")
+    assert one.spacing == pair.spacing == (5e-7, 5e-7)
+    assert np.array_equal(one.heights, pair.heights)
