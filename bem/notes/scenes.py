@@ -54,6 +54,13 @@ JOINT_CLOSED = define(
     "Every cell carries load on a doubly periodic grid: no gap is left to give way, and the bodies' own "
     "elasticity is not part of the joint.",
 )
+OILS_AT_ONE_TEMPERATURE = define(
+    "oils-at-one-temperature",
+    INFO,
+    "All oils are at the flank temperature of the first, {celsius:.4g} degC.",
+    "Each oil warms the flanks of gears differently; oil.temperature is one for all.",
+    "Compare oils of a machine element by bem element --cases, which finds the temperature of each.",
+)
 PART_UNSOLVED = define(
     "part-unsolved",
     CAUTION,

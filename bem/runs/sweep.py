@@ -34,6 +34,7 @@ from bem.runs.table import dataset_variables, table_text
 from bem.scenes import get_kind
 from bem.scenes.asked import Asked, with_accuracy
 from bem.scenes.axes import Axis
+from bem.scenes.checks.plausible import oils_at_one_temperature
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Variable
 from bem.scenes.load import (
@@ -170,6 +171,8 @@ def run_sweep(
         computed, failed = _compute(missing, labels, len(summaries), staff, watcher or Silent())
         summaries |= computed
         in_order = [summaries[name] for name in names]
+        for note in oils_at_one_temperature(scenes[0], [axis.key for axis in swept]):
+            (watcher or Silent()).note(note)
         _tell_notes(in_order, labels, [folder / name / SUMMARY for name in names], watcher or Silent())
         variables = _collect(folder, scenes[0], axes, in_order)
         write_text(folder / TABLE, table_text(axes, in_order, names, failed))

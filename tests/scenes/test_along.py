@@ -7,8 +7,11 @@ import pytest
 from matplotlib.figure import Figure
 
 from bem import InputError, load_scene, solve_thermal_line_film
+from bem.campaigns.context import Silent
 from bem.plots.draw import figure_kind
 from bem.runs import run_scene
+from bem.runs.sweep import run_sweep
+from bem.scenes.checks.plausible import notes_over
 from bem.scenes.load import dump_scene
 
 COLUMNS = {
@@ -153,3 +156,29 @@ def test_what_the_rows_say_is_not_said_twice(tmp_path):
         load_scene(GEAR | {"roller": {"radius": "1 mm", "width": "14 mm"}})
     with pytest.raises(InputError, match=r"roller\.hertz_pressure beside along"):
         load_scene(GEAR | {"roller": {"hertz_pressure": "1 GPa", "width": "14 mm"}})
+
+
+def test_oils_along_a_path_are_at_the_temperature_of_the_first():
+    def codes(**over):
+        table = {key: list(values) for key, values in over.items()}
+        return [note.code for note in notes_over(load_scene(GEAR | ({"over": table} if table else {})))]
+
+    (note,) = notes_over(load_scene(GEAR | {"over": {"oil.base": ["mineral", "pag"]}}))
+    assert note.startswith("oil.temperature: All oils are at the flank temperature of the first, 90 degC.")
+    assert codes(**{"oil.grade": ["ISO VG 100", "PAO 10"]}) == ["oils-at-one-temperature"]
+    assert codes() == []
+    assert codes(**{"roughness": ["0.3 um", "0.5 um"]}) == []
+    assert codes(**{"oil.base": ["mineral", "pag"], "oil.temperature": ["80 degC", "90 degC"]}) == []
+
+
+def test_a_sweep_over_oils_along_a_path_says_so(tmp_path):
+    told = []
+
+    class Told(Silent):
+        def note(self, text):
+            told.append(str(text))
+
+    two = {key: values[:2] for key, values in COLUMNS.items()}
+    scene = GEAR | {"along": two, "thermal": "off"}
+    run_sweep(scene, ["oil.base=mineral,pag"], tmp_path / "sweep", workers=1, watcher=Told())
+    assert sum("All oils are at the flank temperature of the first, 90 degC" in text for text in told) == 1

@@ -6,11 +6,13 @@ Walks the tables, so that a key of a new kind is checked as soon as its name or 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import lru_cache
 from typing import Any
 
 from bem.notes import Note
+from bem.notes.scenes import OILS_AT_ONE_TEMPERATURE
+from bem.physical_constants import ZERO_CELSIUS
 from bem.plausibility import BY_NAME, UsualRange, notes_on, range_of_key
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.registry import scene_check
@@ -50,9 +52,25 @@ def outside_usual_range(facts: Facts) -> Iterator[Note]:
             yield note
 
 
+_OILS = frozenset(("oil.base", "oil.grade", "oil.viscosity_index"))
+"""Keys that stand for another oil."""
+
+
 def notes_over(scene: SceneModel) -> list[Note]:
     """Notes on the values of a scene, those of its key `over` included."""
-    return notes_on(values_over(scene))
+    return [*notes_on(values_over(scene)), *oils_at_one_temperature(scene, scene.over or {})]
+
+
+def oils_at_one_temperature(scene: SceneModel, over: Collection[str]) -> list[Note]:
+    """Return a note where oils are compared along a path of contact at one temperature.
+
+    scene : with the first values. over : keys that are swept.
+    """
+    oil: Any = getattr(scene, "oil", None)
+    fixed = oil is not None and oil.temperature is not None and "oil.temperature" not in over
+    if getattr(scene, "along", None) is None or not fixed or _OILS.isdisjoint(over):
+        return []
+    return [OILS_AT_ONE_TEMPERATURE("oil.temperature", celsius=oil.temperature - ZERO_CELSIUS)]
 
 
 def values_over(scene: SceneModel) -> Values:
