@@ -781,7 +781,7 @@ def test_a_criterion_that_removed_nothing_says_stress_and_strength(stress, words
 def test_a_loop_shorter_than_a_turn_says_so_only_where_rough_bodies_move():
     check, short = OUTCOME_CHECKS["friction_that_swings_with_the_place"], swinging_outcome(0.002, count=20)
     (told,) = check(facts_of("running-in-stribeck"), short)
-    assert "returns every 67 cycles, and the run has 20" in told
+    assert "again every 67 cycles, one turn, and the run has 20" in told
     assert list(check(facts_of("running-in-stribeck", 'upper.surface={kind = "smooth"}'), short)) == []
 
 
