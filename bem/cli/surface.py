@@ -292,7 +292,7 @@ def _show(surface: Surface, name: str) -> None:
     from bem.surfaces.measurements import finite_size_of, periodic_axes
 
     d = describe_surface(surface.heights, surface.spacing, periodic=periodic_axes(surface))
-    _print_doubt(d.Sq, d.Sdq)
+    _doubts(surface)
     error = finite_size_of(surface)
     told = surface.metadata.get("spacing_in_file")
 
@@ -340,6 +340,26 @@ def _show(surface: Surface, name: str) -> None:
     _hints(surface)
 
 
+def _doubts(surface: Surface, name: str = "") -> None:
+    """Print what makes the figures doubtful: spikes first, then the unit of heights, judged without them."""
+    from bem.cli._terminal import print_text
+    from bem.quantities import counted
+    from bem.surfaces import describe_surface
+    from bem.surfaces.filter import MOST_SPIKES, count_spikes, despike, fill_missing
+
+    heights = surface.heights
+    spikes = 0 if surface.metadata.get("spikes") else count_spikes(heights, surface.spacing)
+    if 0 < spikes < MOST_SPIKES * heights.size:
+        of = f"{name}: " if name else ""
+        print_text(
+            f"caution: {of}{counted(spikes, 'point')} more than 6 standard deviations off the neighbours: spikes of "
+            "the instrument? --despike 6 removes them."
+        )
+        heights = fill_missing(despike(heights, surface.spacing), surface.spacing)
+    found = describe_surface(heights, surface.spacing)
+    _print_doubt(found.Sq, found.Sdq, name)
+
+
 def _print_doubt(rms_height: float, rms_slope: float, name: str = "") -> None:
     """Print a line where the unit of heights is doubted; `name` : of the file, where there are several."""
     from bem.cli._terminal import print_text
@@ -352,21 +372,12 @@ def _print_doubt(rms_height: float, rms_slope: float, name: str = "") -> None:
 
 def _hints(surface: Surface, name: str = "") -> None:
     """Print what an expert would doubt of a map; `name` : of its file, where there are several."""
-    from bem.quantities import counted
-    from bem.surfaces.filter import MOST_SPIKES, count_spikes
-
     of = f"{name}: " if name else ""
     filled = float(surface.metadata.get("missing_points", 0) or 0) / surface.heights.size
     if filled > 0.1:
         print(
             f"{of}{filled:.0%} of the points were missing and filled smoothly: the real surface is rougher. Take a "
             "part without holes, or measure again."
-        )
-    spikes = 0 if surface.metadata.get("spikes") else count_spikes(surface.heights, surface.spacing)
-    if 0 < spikes < MOST_SPIKES * surface.heights.size:
-        print(
-            f"{of}{counted(spikes, 'point')} more than 6 standard deviations off the neighbours: spikes of the "
-            "instrument? --despike 6 removes them."
         )
 
 
@@ -456,8 +467,8 @@ def _show_measurements(files: list[Path], surfaces: list[Surface], *, json: bool
         }
         print(writer.dumps({"files": [str(file) for file in files], "parameters": parameters, "spectrum": spectrum}))
         return
-    for file, rms, steepness in zip(files, *(found.parameters[key].values for key in ("Sq", "Sdq")), strict=True):
-        _print_doubt(rms, steepness, file.name)
+    for file, surface in zip(files, surfaces, strict=True):
+        _doubts(surface, file.name)
     rows = []
     for name, words, how in _OF_SEVERAL:
         one = found.parameters.get(name)

@@ -510,7 +510,7 @@ LESS_THAN_A_PARTICLE = define(
     "All cycles together shed {number:.2g} particles of one body{of}: an expected number, worn volume over mean volume"
     " of a particle, and no count. Sizes are those of regions that would come off.",
     "Read the particles per distance and per worn volume. At the rate of the last {window} cycles, {rate:.2g} a cycle,"
-    " about {cycles} cycles shed {wanted}: set cycles.count to that for a count.",
+    " about {cycles} cycles shed {wanted}: set cycles.count to that for a count; they take about {time}.",
 )
 WEAR_OUTSIDE_REGION = define(
     "wear-outside-region",

@@ -1,6 +1,7 @@
 """What is warned of before and after a run: every check fires where it should, and not next to it."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -802,6 +803,8 @@ def test_cycles_for_a_count_of_particles_follow_the_rate_in_the_table():
     check = OUTCOME_CHECKS["less_than_one_particle"]
     (told,) = check(facts_of("running-in-stribeck", "cycles.count=4", "cycles.settled=2", "cycles.averaged=2"), outcome)
     assert "last 2 cycles, 0.1 a cycle, about 200 cycles shed 20" in told
+    # 43 000 cycles were advised without a word that they take nine hours
+    assert re.search(r"they take about [\d.]+ (s|min|h)\.$", told)
 
 
 @pytest.mark.internal

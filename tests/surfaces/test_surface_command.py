@@ -190,3 +190,15 @@ def test_decimal_commas_are_named(call, table, separator):
     code, _, err = call("surface", "describe", table, "--spacing", "1 um", "--height-unit", "nm")
     assert code == 2
     assert "its numbers have decimal commas; write decimal points" in err
+
+
+def test_spikes_are_said_before_the_unit_which_is_judged_without_them(call, tmp_path):
+    """25 spikes of 50 um: the unit of heights was doubted first, and spikes were named last."""
+    rng = np.random.default_rng(0)
+    waves = np.sin(np.arange(96) / 5)
+    heights = 300 * (waves[:, None] + waves) + rng.standard_normal((96, 96))
+    heights.ravel()[rng.choice(heights.size, 25, replace=False)] += 5e4
+    np.savetxt(tmp_path / "a.txt", heights)
+    _, out, _ = call("surface", "describe", tmp_path / "a.txt", "--spacing", "0.5 um", "--height-unit", "nm")
+    assert out.startswith("caution: 25 points more than 6 standard deviations off the neighbours")
+    assert "height unit right" not in out

@@ -38,6 +38,9 @@ from bem.scenes.checks.roughened import roughened, with_pieces
 from bem.scenes.checks.words import numbers
 from bem.scenes.common import BODIES, SmoothSurface
 from bem.scenes.context import Outcome
+from bem.scenes.kind import get_kind
+from bem.scenes.planner import machine_rate, show_seconds
+from bem.threads import get_threads
 
 _SERIES = {
     "rms_height_over_cycles": "Sq of the worn surface",
@@ -261,7 +264,14 @@ def less_than_one_particle(facts: Facts, outcome: Outcome) -> Iterator[Note]:
             wanted=_COUNTABLE,
             rate=rate,
             window=window,
+            time=_time_of(facts, cycles),
         )
+
+
+def _time_of(facts: Facts, cycles: int) -> str:
+    """Return the estimated time of so many cycles in words: by the plan of the scene, in proportion to its cycles."""
+    planned = get_kind(facts.scene.kind).plan(facts.scene)
+    return show_seconds(planned.work(machine_rate(get_threads())) * cycles / facts.scene.cycles.count)
 
 
 _COUNTABLE = 20

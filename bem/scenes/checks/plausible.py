@@ -16,6 +16,7 @@ from bem.physical_constants import ZERO_CELSIUS
 from bem.plausibility import BY_NAME, UsualRange, notes_on, range_of_key
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.registry import scene_check
+from bem.scenes.checks.surfaces import SPIKY_KURTOSIS
 from bem.scenes.common import MaterialScene, MeasuredSurface, SceneModel
 from bem.scenes.load import scenes_over
 from bem.scenes.maps import height_unit_note
@@ -34,7 +35,8 @@ def height_unit_of_a_map(facts: Facts) -> Iterator[Note]:
         *facts.worst_surfaces(lambda surface: surface.rms_slope),
         *facts.worst_surfaces(lambda surface: -surface.rms_height),
     ):
-        if isinstance(surface.table, MeasuredSurface) and surface.table.rms_height is None:
+        spiky = surface.spikes > 0 and surface.kurtosis > SPIKY_KURTOSIS  # a caution of its own
+        if isinstance(surface.table, MeasuredSurface) and surface.table.rms_height is None and not spiky:
             where = case.note_place(f"{surface.body}.surface")
             note = height_unit_note(where, surface.rms_height, surface.rms_slope)
             if note is not None:

@@ -19,7 +19,7 @@ from bem.scenes.maps import MOST_SEAM_CHANGE, covers, read_map
 from bem.surfaces.describe import STEEPEST_SURFACE
 
 _FILLED = 0.03
-_KURTOSIS = 10.0
+SPIKY_KURTOSIS = 10.0
 """Sku above which a map with outliers is doubted; 3 is Gaussian, honed liners have 5 to 9."""
 _POINTS = 32
 _FINER = 1.1
@@ -76,7 +76,7 @@ def outliers_of_the_instrument(facts: Facts) -> Iterator[Note]:
     """Lone points micrometres above their neighbours are contacts of their own: with ten in 45000 points the kurtosis
     is 50 where ground steel has 3 to 6."""
     for kurtosis, _, surface in facts.worst_surfaces(lambda surface: surface.kurtosis):
-        if kurtosis > _KURTOSIS and surface.spikes:
+        if kurtosis > SPIKY_KURTOSIS and surface.spikes:
             where = f"{surface.body}.surface"
             yield MAP_ALTERED(where, points=surface.spikes, kurtosis=kurtosis, reason="outliers")
 
