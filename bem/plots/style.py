@@ -139,6 +139,18 @@ _NARROW = 0.4
 """Width over height of a map in equal units below which labels along x would overlap and are turned."""
 
 
+def set_map_aspect(axes: Axes, extent: tuple[float, float, float, float]) -> None:
+    """Draw a map true to scale, or stretched where one side is five times the other; turn labels that would overlap.
+
+    extent : first and last x, first and last y of the map.
+    """
+    ratio = (extent[1] - extent[0]) / (extent[3] - extent[2])
+    axes.set_aspect("equal" if 0.2 < ratio < 5 else "auto")
+    if 0.2 < ratio < _NARROW:
+        axes.tick_params(axis="x", labelrotation=90)
+        axes.locator_params(axis="x", nbins=3)
+
+
 def field_axes(
     axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], *, along: str | None = None
 ) -> tuple[float, float, float, float]:
@@ -157,11 +169,7 @@ def field_axes(
     )
     axes.set_xlabel(label(along or along_x(), unit))
     axes.set_ylabel(label("y", unit))
-    ratio = (extent[1] - extent[0]) / (extent[3] - extent[2])
-    axes.set_aspect("equal" if 0.2 < ratio < 5 else "auto")
-    if 0.2 < ratio < _NARROW:
-        axes.tick_params(axis="x", labelrotation=90)
-        axes.locator_params(axis="x", nbins=3)
+    set_map_aspect(axes, extent)
     for side in ("top", "right"):
         axes.spines[side].set_visible(True)
     return extent

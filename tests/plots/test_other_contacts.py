@@ -468,3 +468,20 @@ def test_the_legend_of_a_life_is_above_its_curves():
     figure.draw_without_rendering()
     axes = figure.axes[0]
     assert axes.get_legend().get_window_extent().y0 >= axes.get_window_extent().y1
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize(("length", "aspect"), [(20, 1.0), (400, "auto")])
+def test_frames_of_a_long_ellipse_are_stretched(length, aspect):
+    """Frames of a bearing's ball, ten times as long as wide, were a finger wide, with labels one on another."""
+    frames = np.full((3, 12, length), 1e9)
+    run = run_of(
+        pressure_frames=(("frame", "x", "y"), frames),
+        x=1e-6 * np.arange(12.0),
+        y=1e-6 * np.arange(float(length)),
+        frame=np.array([1, 5, 20]),
+    )
+    figure = Figure(figsize=(8, 3), layout="constrained")
+    running_in._frames(run, figure)
+    maps = [axes for axes in figure.axes if axes.get_title().startswith("cycle")]
+    assert [axes.get_aspect() for axes in maps] == [aspect] * 3

@@ -19,7 +19,17 @@ from numpy.typing import NDArray
 from bem.plots.cases import along, case_shown, grouped, many_speeds, redoes
 from bem.plots.figures import FigureKind
 from bem.plots.labels import label, prefix
-from bem.plots.style import BLUE, OPEN, SEQUENTIAL, VERMILION, name_case, said_beyond, speed_axis, start_at_zero
+from bem.plots.style import (
+    BLUE,
+    OPEN,
+    SEQUENTIAL,
+    VERMILION,
+    name_case,
+    said_beyond,
+    set_map_aspect,
+    speed_axis,
+    start_at_zero,
+)
 
 _MEASURED_RADIUS = (210e-9, 236e-9)  # dynamic light scattering at 0.01 m/s, 223 +- 13 nm; thesis, paper D
 Array = NDArray[Any]
@@ -191,7 +201,9 @@ def _frames(run: Any, figure: Figure) -> None:
 def _pressure_image(axes: Axes, values: Array, extent: tuple[float, float, float, float], highest: float) -> Any:
     axes.set_facecolor(OPEN)
     shown = np.where(values > 0, values, np.nan)
-    return axes.imshow(shown, extent=extent, aspect="equal", cmap=SEQUENTIAL, vmin=0, vmax=highest)
+    image = axes.imshow(shown, extent=extent, cmap=SEQUENTIAL, vmin=0, vmax=highest)
+    set_map_aspect(axes, extent)
+    return image
 
 
 def _animate(run: Any, path: Path) -> None:
