@@ -92,7 +92,9 @@ def test_a_contact_plan_follows_what_is_asked_for():
 def test_time_and_memory_of_a_plan_grow_with_the_grid():
     _, small = plan_scene("hertz-sphere", ["grid.shape=128"])
     _, large = plan_scene("hertz-sphere", ["grid.shape=1024"])
-    assert large.memory > 4 * small.memory
+    # 1.5 GB and 0.65 GB, of which 0.6 GB are libraries; the larger grid's components of stress lie on disk: 1.2 GB of
+    # memory and 1.6 GB of mapped files are measured
+    assert large.memory > 2 * small.memory
     assert large.seconds(2e9) > small.seconds(2e9)
 
 
