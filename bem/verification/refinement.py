@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bem.contact import solve_contact
 from bem.convolution import displacement_operator
@@ -65,8 +66,9 @@ def _disc(name: str) -> list[Curve]:
     for quantity in ("normal_displacement", "tangential_displacement", "stress_zz", "stress_xz"):
         curves = [c for c in case.curves if c.name == quantity and (quantity[0] != "s" or c.side in ("", "substrate"))]
         kept = [c.only(c.coordinates[:, 2] >= (0.29 if c.name[0] == "s" else 0)) for c in curves]
-        # away from the edge, where it is not of the second order
+        # away from the edge, where it is not of the second order, and at centres of cells of all three grids
         kept = [c.only(np.abs(np.hypot(*c.coordinates[:, :2].T) - 1) > 0.12) for c in kept]
+        kept = [c.only(_on_centres(c.coordinates[:, :2], STEPS[0])) for c in kept]
 
         def solve(step: float, kept: list[stored.StoredCurve] = kept) -> FloatArray:
             side = disc.Disc(case.body, case.parameters["pressure"], tangential=tangential, step=step, glass=False)
@@ -75,6 +77,11 @@ def _disc(name: str) -> list[Curve]:
         reference = np.concatenate([c.values for c in kept])
         found.append(_order(quantity, STEPS, errors(solve, reference, STEPS), DISC_SPREAD, DISC_REASON))
     return found
+
+
+def _on_centres(points: FloatArray, step: float) -> NDArray[np.bool_]:
+    """Whether points (n, 2) are centres of cells of that side, of a grid with a centre at the origin."""
+    return np.all(np.abs(points / step - np.rint(points / step)) < 1e-6, axis=1)
 
 
 def _strip(name: str) -> list[Curve]:
