@@ -2,8 +2,10 @@
 
 Friction is (boundary part + film part) / load, positive where it resists the sliding. The boundary part is the boundary
 shear stress summed over the contact; without sliding it is zero. The film part is the shear force of the film on the
-flat outside the real contact. The lambda ratio is the minimum of the smooth film under the *whole* load over the rms
-height of both surfaces together, so it does not depend on how the load is shared.
+flat outside the real contact; in pure rolling, where surfaces in contact do not rub, it is the whole shear force, which
+is rolling resistance alone. Parts of it would not do: pressure drives the oil back at the inlet and forward at the
+outlet, so that a part may exceed the sum. The lambda ratio is the minimum of the smooth film under the *whole* load
+over the rms height of both surfaces together, so it does not depend on how the load is shared.
 """
 
 from __future__ import annotations
@@ -35,7 +37,7 @@ class Forces:
     coefficient : boundary part over contact load. A constant law has its constant without contact or sliding too; other
         laws then have 0.
     heat : temperatures of the contact; None without heat, contact or sliding.
-    on_contact : shear force of the film on the parts of cells in contact [N], which is not in `film`.
+    on_contact : shear force of the film on the parts of cells in contact [N], not in `film`; 0 in pure rolling.
     """
 
     boundary: float
@@ -53,16 +55,15 @@ def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup,
 
         heat = contact_heat(film, contact, setup, speeds)
     coefficient = _boundary_coefficient(contact, setup, slide) if heat is None else heat.coefficient
-    if contact is None:
-        return Forces(0.0, sliding_sign(speeds) * film.shear_force, coefficient)
+    if contact is None or slide == 0:
+        return Forces(0.0, sliding_sign(speeds) * film.shear_force, coefficient, heat)
     film_grid = setup.film_grid
     on_contact = (
         float(np.sum(film.shear_stress * contact.touching_fraction))
         * film_grid.cell_area
         * setup.smooth.slices(film_grid)
     )
-    boundary = coefficient * contact.load if slide > 0 else 0.0
-    sign = sliding_sign(speeds)
+    boundary, sign = coefficient * contact.load, sliding_sign(speeds)
     return Forces(boundary, sign * (film.shear_force - on_contact), coefficient, heat, sign * on_contact)
 
 

@@ -142,7 +142,8 @@ def oil_on_contact_notes(points: Sequence[tuple[float, float]]) -> tuple[Note, .
     friction, more = max(following, key=lambda one: abs(one[1] / one[0]) if one[0] else math.inf)
     most = ", where that differs most" if len(following) > 1 else ""
     level = Level.CAUTION if abs(more) > DECIDES * abs(friction) else None
-    return (OIL_ON_CONTACT(level=level, with_oil=float(friction + more), friction=float(friction), most=most),)
+    values: dict[str, Any] = {"with_oil": float(friction + more), "friction": float(friction), "most": most}
+    return (OIL_ON_CONTACT(level=level, reason="more" if more > 0 else "less", **values),)
 
 
 def oil_notes(oils: Sequence[OilVolumeSensitivity]) -> tuple[Note, ...]:

@@ -89,8 +89,14 @@ FILM_WITHOUT_LAYERS = define(
 OIL_ON_CONTACT = define(
     "oil-on-contact",
     INFO,
-    "Friction of the oil between touching surfaces is left out.",
-    "With the film's shear stress on them friction would be {with_oil:.3g}, here {friction:.3g}{most}.",
+    "The shear stress of the oil between touching surfaces is not counted.",
+    reasons={
+        "more": "With that of the film there friction would be {with_oil:.3g}, here {friction:.3g}{most}.",
+        "less": (
+            "With that of the film there friction would be {with_oil:.3g}, here {friction:.3g}{most}: with so little"
+            " sliding the fall of pressure drives that oil forward, against the resistance of the rest."
+        ),
+    },
 )
 OIL_COUNTED = define(
     "oil-counted",

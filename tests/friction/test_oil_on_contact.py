@@ -38,6 +38,23 @@ def test_what_is_left_out_is_the_films_stress_on_cells_in_contact(speeds):
     assert bool(said(point)) is (point.oil_on_contact > MATTERS * point.friction)
 
 
+def test_rolling_resistance_in_pure_rolling_is_that_of_the_whole_film():
+    """Without the cells in contact it would be larger than the whole: pressure drives the oil there forward."""
+    point = solve_mixed(**CASE, speeds=(0.03, 0.03))
+    assert point.contact_load > 0.1 * point.load
+    assert point.film_force == pytest.approx(point.patch_film.shear_force, rel=1e-12)
+    assert point.friction * point.load == pytest.approx(point.film_force, rel=1e-12)
+    assert point.oil_on_contact == 0
+    assert not said(point)
+
+
+@pytest.mark.internal
+def test_less_friction_with_oil_on_contact_is_said_with_its_reason():
+    (note,) = oil_on_contact_notes([(0.1, -0.03)])
+    assert note.values["reason"] == "less"
+    assert oil_on_contact_notes([(0.1, 0.03)])[0].values["reason"] == "more"
+
+
 def test_nothing_is_left_out_of_a_full_film():
     point = solve_mixed(**CASE, speeds=(0.6, 0.0))
     assert point.full_film
