@@ -197,6 +197,11 @@ class Element:
         warm = table | {"bulk_temperature": temperature}
         return Element(self.model.model_copy(update=changes), warm, estimated, ambient)
 
+    @property
+    def inlet_oil(self) -> OilScene | None:
+        """The oil as it comes to the element: at the temperature of its heat balance if that has an `ambient`."""
+        return self.model.oil if self.ambient is None else self.model.film_oil
+
     def _film_oil(self) -> OilScene:
         assert self.model.film_oil is not None
         return self.model.film_oil

@@ -72,9 +72,9 @@ def base_of(element: Element) -> str:
 
 def friction_of_gear_tests(element: Element) -> TestFriction | None:
     """Return the mean friction coefficients by fits to gear tests; None without roughness or an oil."""
-    model = element.model
+    model, oil = element.model, element.inlet_oil
     assert isinstance(model, GearModel)
-    if model.rms_roughness is None or model.oil is None:
+    if model.rms_roughness is None or oil is None:
         return None
     path = path_of_contact(model)
     omega = (model.speed, model.speed * model.teeth[0] / model.teeth[1])
@@ -83,7 +83,7 @@ def friction_of_gear_tests(element: Element) -> TestFriction | None:
         "line_load": model.pinion_torque / (path.base_radii[0] * model.face_width),
         "sum_speed": sum_speed,
         "radius": path.pitch * (path.line - path.pitch) / path.line / math.cos(path.base_helix),
-        "viscosity": model.oil.build().viscosity,
+        "viscosity": oil.build().viscosity,
         "roughness": _RA_OVER_SQ * model.rms_roughness / math.sqrt(2),
         "factor": lubricant_factor(base_of(element), sum_speed),
     }
@@ -98,7 +98,7 @@ def scuffing_of(element: Element, runs: Sequence[Running]) -> Scuffing | None:
     model = element.model
     assert isinstance(model, GearModel)
     hot = [one for one in runs if one.converged and one.flash is not None]
-    oil = None if model.oil is None else model.oil.temperature
+    oil = None if element.inlet_oil is None else element.inlet_oil.temperature
     if not hot or oil is None:
         return None
     tests = friction_of_gear_tests(element)

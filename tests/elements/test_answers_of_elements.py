@@ -183,7 +183,7 @@ def test_the_heat_balance_balances():
     gears = element_of("gear-pair", points=5, heat_balance={"conductance": "20 W/K", "ambient": "60 degC"})
     warm = balance_heat(gears, most=5)
     power = likely_power(warm, run_all(warm, most=5))
-    assert power == pytest.approx(sliding_power(gears, friction_of_gear_tests(gears).power))
+    assert power == pytest.approx(sliding_power(gears, friction_of_gear_tests(warm).power))  # oil as warm as bodies
     assert warm.model.bulk_temperature == pytest.approx(333.15 + power / 20, abs=0.5)
     assert warm.model.bulk_temperature > 345
     rollers = load_element(STEEL_BEARING | {"heat_balance": {"conductance": "2 W/K"}})
@@ -225,6 +225,20 @@ def test_with_an_ambient_the_oil_is_as_warm_as_the_bodies():
     assert OIL_FOLLOWS_BALANCE.code not in [note.code for note in to_oil.notes()]
     with pytest.raises(InputError, match="temperature"):
         load_element(STEEL_BEARING | {"heat_balance": {"conductance": "2 W/K"}, "oil": given})
+
+
+@pytest.mark.parametrize("name", ["gear-pair", "cam-follower", "piston-ring"])
+def test_an_ambient_leaves_no_trace_of_the_oils_temperature(name):
+    """Temperature of the balance, friction of gear tests and scuffing are the same for any oil.temperature."""
+    balance = {"conductance": "20 W/K", "ambient": "30 degC"}
+    more = {"scuffing_load_stage": 12, "points": 5} if name == "gear-pair" else {}
+    said = set()
+    for temperature in ({"temperature": "100 degC"}, {}):
+        oil = {"grade": "ISO VG 150", **temperature}
+        found = balance_heat(element_of(name, heat_balance=balance, oil=oil, rms_roughness="700 nm", **more), most=2)
+        said.add((found.model.bulk_temperature, *answer(found, [run_contact(found, operating_places(found, 2)[0])])))
+    assert len(said) == 1
+    assert name != "gear-pair" or "safety factor" in dict(next(iter(said))[1:])["scuffing"]
 
 
 @pytest.mark.internal
