@@ -48,6 +48,12 @@ PLACES = 11
 """Films that are solved for an answer on one screen, beside marked and extreme contacts; `--running` solves all."""
 _LEAST_SCATTER = 0.005
 """Scatter of the friction power, over it, below which it is left out."""
+_LEAST_RATIO = 0.4
+"""Lambda ratio below which scenes of new surfaces have a much larger load share of asperities than the estimate."""
+_NEW_SURFACES = (
+    ". The estimate is a fit for ground, run-in surfaces: asperities of new ones with random roughness, as in scenes "
+    "of kind friction, carry far more, and friction lies between both"
+)
 _BALANCE_ROUNDS, _BALANCE_STEP, _HALVINGS = 20, 0.2, 6
 """Rounds of a heat balance at most, the difference of temperature [K] at which it is found, and how often a step is
 halved that leaves the temperatures of the oil."""
@@ -423,7 +429,8 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
     cool = ""
     if element.bulk_estimated:
         cool = f"; about {_ratio_at_oil(element, thinnest):.3g} if the flanks were only as warm as the oil"
-    return f"{ratio:.3g} ({regime}{touching}), {film}{cool}{_unsolved_words(element)}"
+    rougher = _NEW_SURFACES if touching and ratio < _LEAST_RATIO and thinnest.mixed_friction is None else ""
+    return f"{ratio:.3g} ({regime}{touching}), {film}{cool}{_unsolved_words(element)}{rougher}"
 
 
 def unsolved_ratio(element: Element) -> tuple[float, ElementContact] | None:

@@ -146,6 +146,18 @@ def test_what_did_not_converge_is_no_figure(gears):
     assert "friction power" not in alone
 
 
+@pytest.mark.parametrize(("ratio", "says"), [(0.39, True), (0.41, False)])
+def test_thin_films_say_that_the_estimate_is_of_run_in_surfaces(gears, ratio, says):
+    """Below a lambda ratio of 0.4 scenes of new surfaces have far more load on asperities; solved shares need none."""
+    element, runs = gears
+    thin = replace(runs[0], minimum_film=1e-9, film_ratio=ratio, asperity_share=0.5)
+    words = dict(answer(element, [thin, *runs[1:]]))["lambda ratio"]
+    assert "of the load, an estimate" in words
+    assert ("fit for ground, run-in surfaces" in words) == says
+    solved = replace(thin, mixed_friction=0.1)
+    assert "run-in" not in dict(answer(element, [solved, *runs[1:]]))["lambda ratio"]
+
+
 @pytest.mark.internal
 def test_what_is_not_known_is_said():
     iron = {"name": "bare iron", "youngs_modulus": "170 GPa", "poissons_ratio": 0.26}
