@@ -61,6 +61,8 @@ _RUNNING_IN_RATE, _STABLE_STEP = 1e-16, 0.25
 cell, as in scenes of own surfaces."""
 _SHORTEST_AVERAGE, _CELLS_PER_AVERAGE = 300e-9, 3
 """Averaging length of the particle criterion where cells are small enough [m], else cells to it."""
+_MOST_UNLIKE_CELLS = 1.5
+"""Longer over shorter side of a cell up to which particles are sought: they are as large as the longer side allows."""
 ASSUMED_SLIDING, ASSUMED_WEAR_RATE, ASSUMED_CYCLES = 0.02, 2e-17, 1_000_000
 """Slide-to-roll ratio of running-in and lives in place of pure rolling (rolling bearings slip by 1 to 3 %). Wear rate
 of lives without one of the element [m^2/N], as in the template of running-in-life, and their cycles."""
@@ -253,6 +255,8 @@ def mixed_scene(
 def _running_in(model: ElementModel, patch: Patch) -> dict[str, Any]:
     """Return the keys of running-in: Archard's wear, which smooths summits, with the particles of a criterion.
 
+    Along grooves, where the cells are much longer than across them, no criterion could tell particles from cells.
+
     A cycle wears as much as keeps the step stable, half the compliance by which the bodies give way from cell to cell;
     the run has two turns of the moving roughness, and means over one.
     """
@@ -262,15 +266,20 @@ def _running_in(model: ElementModel, patch: Patch) -> dict[str, Any]:
     distance = _STABLE_STEP * cell_to_cell_compliance(Grid((32, 32), cell), bodies) / rate
     shift = max(_SHIFT, round(patch.shape[0] / _TURN))
     turn = cycles_of_a_turn(patch.shape, shift)
-    averaged = max(_SHORTEST_AVERAGE, _CELLS_PER_AVERAGE * min(cell))
+    particles: dict[str, Any] = {}
+    if max(cell) <= _MOST_UNLIKE_CELLS * min(cell):
+        averaged = max(_SHORTEST_AVERAGE, _CELLS_PER_AVERAGE * max(cell))
+        particles["particle_criterion"] = {"kind": "averaged_von_mises", "averaging_length": averaged}
+    alike = bodies[0].surface_material.yield_stress == bodies[1].surface_material.yield_stress
     return {
         "wear": {
+            **({"wears": "lower"} if alike else {}),
             "criterion": {
                 "kind": "archard",
                 "specific_wear_rate": f"{1e9 * rate:.6g} mm^3/(N*m)",
                 "distance": float(f"{distance:.1g}"),
             },
-            "particle_criterion": {"kind": "averaged_von_mises", "averaging_length": averaged},
+            **particles,
             **({} if shift == _SHIFT else {"shift": shift}),
         },
         "depths": {"count": _DEPTHS, "spacing": min(cell) / _CELLS_PER_DEPTH},

@@ -78,6 +78,17 @@ _OWN_LENGTH = "    # random, of the element's rms_roughness and correlation_leng
 """Comment on surfaces without grooves of an element with a correlation length of its own."""
 
 
+_WORN = '    # of equal materials the body whose whole track wears evenly; "both" cuts a groove into the other besides'
+"""Comment on the body that wears in running-in between equal materials."""
+
+
+_NO_PARTICLES = (
+    "    # particles need cells as short along y as along x (a longer run): grid.shape = {shape} and "
+    'particle_criterion = {{ kind = "averaged_von_mises", averaging_length = "{length}" }}'
+)
+"""Comment on the wear law of running-in on cells that are too long for particles."""
+
+
 def element_scene_text(element: Element, table: Mapping[str, Any]) -> str:
     """Return a scene of an element, a table of `Element.scene` or `Element.path_scene`, as TOML text with comments."""
     comments = {}
@@ -89,7 +100,20 @@ def element_scene_text(element: Element, table: Mapping[str, Any]) -> str:
         shorter, longer = (si(one, "m", 4) for one in sorted(finish_lengths(element.model) or ()))
         words = _OWN_LENGTH if shorter == longer else _GROOVES.format(across=shorter, along=longer)
         comments |= dict.fromkeys(("lower.surface", "upper.surface"), words)
+    if table["kind"] == "running-in":
+        comments |= _wear_comments(table)
     return scene_text(table, bulk_estimated=element.bulk_estimated, comments=comments)
+
+
+def _wear_comments(table: Mapping[str, Any]) -> dict[str, str]:
+    """Return comments on the wear of a scene of running-in: which body wears, and what particles would need."""
+    found = {"wear.wears": _WORN}
+    if "particle_criterion" not in table["wear"]:
+        shape, lengths = table["grid"]["shape"], table["grid"]["lengths"]
+        cell = min(length / cells for length, cells in zip(lengths, shape, strict=True))
+        fine = [16 * math.ceil(length / cell / 16 * (1 - 1e-9)) for length in lengths]
+        found["wear.criterion"] = _NO_PARTICLES.format(shape=fine, length=si(3 * cell, "m", 4))
+    return found
 
 
 def scene_text(

@@ -349,8 +349,8 @@ PARTICLES_OF_MESH = define(
     "Sizes and numbers of particles follow the mesh.",
     reasons={
         "criterion": Reason(
-            "The length of wear.criterion {law}, {length:si m}, is {cells:.2g} cells.",
-            "Take cells of {cell:si m} or less.",
+            "The length of wear.criterion {law}, {length:si m}, is {cells:.2g} cells{along}.",
+            "Take cells of {cell:si m} or less{along}.",
         ),
         "depths": Reason(
             "Depths are {ratio:.2g} cells apart.", "Take depths.spacing = the cell, {cell:si m}, or less."

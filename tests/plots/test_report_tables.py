@@ -374,7 +374,7 @@ def test_an_area_is_shown_once_and_roughness_before_and_after_in_one_row(tmp_pat
     assert "counted" not in page
     rows = summary_rows(summary, ["Sq_initial_nm", "Sq_final_nm", "particle_equivalent_radius_nm"])
     assert rows == [
-        ("Sq of the contact region, initial and final", "235.5 nm → 215 nm"),
+        ("Sq of the worn body's contact region, initial and final", "235.5 nm → 215 nm"),
         ("particle equivalent radius, mean by volume", "300 nm"),
     ]
 

@@ -231,13 +231,16 @@ def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[Note]:
         if coarse:
             from bem.wear.criterion.base import FEWEST_CELLS
 
-            cells = min(coarse) / max(case.grid.spacing)
+            dx, dy = case.grid.spacing
+            most = min(coarse) / FEWEST_CELLS
+            long = [axis for axis, cell in zip("xy", (dx, dy), strict=True) if cell > most]
             yield PARTICLES_OF_MESH(
                 case.label,
                 law=law.name,
                 length=min(coarse),
-                cells=cells,
-                cell=min(coarse) / FEWEST_CELLS,
+                cells=min(coarse) / max(dx, dy),
+                cell=most,
+                along=f" along {long[0]}" if len(long) == 1 else "",
                 reason="criterion",
             )
 

@@ -47,7 +47,10 @@ def bodies(facts: Facts) -> Rows:
         elif name in first.surfaces:
             rows.append((f"{name} surface", "smooth"))
     if facts.surfaces and facts.of_kind("wear", "running-in"):
-        rows.append(("", "results give Sq of the contact region, which differs from Sq of the whole grid"))
+        worn = ("lower", "upper")[first.wearing_bodies[0]] if first.wearing_bodies else "worn"
+        rows.append(
+            ("", f"results give Sq of the {worn} body's contact region, which differs from Sq of the whole grid")
+        )
     rows.append(("upper shape", _shape(first)))
     return rows
 
