@@ -527,7 +527,11 @@ def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str,
         if tests is not None:
             losses.append(sliding_power(element, tests.power))
             by_tests = plain_digits(losses[-1], 3)
-            best = f"{by_tests} W by a fit to gear tests (Schlenk, mean friction coefficient {tests.power:.3g})"
+            sharing = "even along all lines of contact" if model.helix_angle else "shared by the teeth (ISO/TR 15144-1)"
+            best = (
+                f"{by_tests} W by a fit to gear tests (Schlenk, mean friction coefficient {tests.power:.3g}) with the "
+                f"load {sharing}"
+            )
             said.insert(0, best)
         given = model.pinion_torque * model.speed
         least, most = (100 * (1 - loss / given) for loss in (max(losses), min(losses)))

@@ -408,3 +408,19 @@ def test_a_module_without_unit_is_named_where_the_teeth_do_not_mesh():
     table = tomllib.loads(element_template("gear-pair")) | {"name": "gears"}
     with pytest.raises(InputError, match=r"contact ratio.*module = 25 has no unit and is read as 25 m"):
         load_element(table | {"module": 25})
+
+
+@pytest.mark.parametrize(("helix", "over", "words"), [(0, 1.07, "shared by the teeth"), (15, 0.86, "even along all")])
+def test_the_fit_to_gear_tests_names_its_load_sharing(helix, over, words):
+    """The guide's ratios: P mu H_v with the textbooks' H_v, half of the load on each of two pairs, over this power."""
+    oil = {"grade": "ISO VG 150", "temperature": "80 degC"}
+    gears = {"module": "3 mm", "teeth": [20, 41], "face_width": "25 mm", "torque": "150 N*m", "speed": "3000 rpm"}
+    element = made(**gears, helix_angle=f"{helix} deg", oil=oil, rms_roughness="700 nm", points=5)
+    model, path = element.model, path_of_contact(element.model)
+    first, second = (path.end - path.pitch) / path.base_pitch, (path.pitch - path.start) / path.base_pitch
+    factor = math.pi * (1 + 20 / 41) / (20 * math.cos(path.base_helix))
+    factor *= 1 - first - second + first**2 + second**2
+    assert model.pinion_torque * model.speed * factor / sliding_power(element, 1.0) == pytest.approx(over, abs=0.005)
+    said = dict(answer(element, [run_contact(element, element.worst())]))["friction power"]
+    assert "W by a fit to gear tests (Schlenk, mean friction coefficient 0.04" in said
+    assert f") with the load {words}" in said
