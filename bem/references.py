@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 _ENTRY = re.compile(r"@(\w+)\{(\w+), (.*)\}")
 _FIELD = re.compile(r"(\w+) = \{((?:[^{}]|\{[^{}]*\})*)\}")
-_ACCENTS = {r"{\'e}": "é", r"{\"a}": "ä", r"{\"o}": "ö", r"{\"u}": "ü", r"{\`a}": "à", "--": "-"}
+_ACCENTS = {r"{\'e}": "é", r"{\"a}": "ä", r"{\"o}": "ö", r"{\"u}": "ü", r"{\`a}": "à", r"{\ss}": "ß", "--": "-"}
 
 
 @dataclass(frozen=True)

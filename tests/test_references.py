@@ -1,11 +1,14 @@
 """Sources: every key that a law or a method cites has an entry, and scenes cite what they use."""
 
+import tomllib
+
 import pytest
 from typer.testing import CliRunner
 
 from bem.campaigns import cited
 from bem.cli import build
-from bem.elements.element import element_template
+from bem.elements.element import element_template, load_element
+from bem.elements.sources import sources_of_element
 from bem.laws import FAMILIES, laws_of
 from bem.materials import CATALOGUE
 from bem.references import references
@@ -100,6 +103,19 @@ def test_a_machine_element_cites_its_ratings_and_its_film(name, own, tmp_path):
     assert done.exit_code == 0
     for key in (own, "zhou1991", "roelands1966"):
         assert references()[key].bibtex in done.output
+
+
+def test_a_fit_that_the_answer_names_is_cited():
+    """Schlenk's friction of gears, and Palmgren's stiffness of rollers, which balls do not have."""
+    tables = {name: tomllib.loads(element_template(name)) for name in ("gear-pair", "rolling-bearing")}
+    tables["roller"] = tables["rolling-bearing"] | {"rolling": "roller", "length": "11 mm"}
+    del tables["roller"]["groove"]
+    cited = {name: set(sources_of_element(load_element(table | {"name": "mine"}))) for name, table in tables.items()}
+    assert "schlenk1994" in cited["gear-pair"]
+    assert "palmgren1959" in cited["roller"]
+    assert "palmgren1959" not in cited["rolling-bearing"]
+    assert {"schlenk1994", "palmgren1959"} <= set(references())
+    assert "Freßtragfähigkeit von Großzahnrädern. Technische Universität München" in references()["schlenk1994"].text
 
 
 def test_laws_without_a_source_are_constants_tables_and_definitions():

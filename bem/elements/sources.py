@@ -25,6 +25,7 @@ _OF_MODEL: dict[type, dict[str, str]] = {
     },
     GearModel: {
         **dict.fromkeys(scuffing.CITES, "scuffing and friction of gear tests"),
+        "schlenk1994": "friction power by a fit to gear tests",
         "iso21771": "geometry of involutes",
         "isotr15144": "sharing of the load by teeth",
         "isots6336": "safety against scuffing and micropitting, by its concepts",
@@ -65,6 +66,8 @@ def sources_of_element(element: Element) -> dict[str, list[str]]:
     """Return the keys of the sources of an element's answer, each with the methods that it is the source of."""
     hertz = {} if isinstance(element.model, PlainBushModel) else {"johnson1985": "Hertz contacts"}
     found = hertz | ({} if element.model.film_oil is None else _FILM) | _OF_MODEL[type(element.model)]
+    if isinstance(element.model, BearingModel) and element.model.rolling == "roller":
+        found = found | {"palmgren1959": "stiffness of line contacts"}
     if element.model.specific_wear_rate is not None:
         found = found | dict.fromkeys(element_wear.CITES, "wear")
     return {key: [method] for key, method in found.items()}
