@@ -466,7 +466,7 @@ TYPICAL_LENGTHS = define(
     "typical-lengths",
     INFO,
     "The correlation length of the roughness is a typical one, not measured.",
-    "{bodies}: {length:si m} of process {process}; a longer one leaves the asperities less of the load.",
+    "{bodies}: {lengths} of process {process}; a longer one leaves the asperities less of the load.",
     "Take measured surfaces (path), or correlation_length of your own.",
 )
 NO_PARTICLE_SIZES = define(

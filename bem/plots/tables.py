@@ -109,6 +109,8 @@ _LABELS = {
     "upper_worn_depth": "worn depth of the upper surface",
     "combined_Sq": "Sq of both surfaces",
     "friction": "friction coefficient",
+    "contact_temperature": "surfaces in contact, mean temperature",
+    "flash_temperature": "surfaces in contact, highest temperature",
     "traction_coefficient": "friction coefficient",
     "sliding_traction": "sliding friction coefficient",
     "contact_share": "asperity load share",

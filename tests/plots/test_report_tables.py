@@ -149,6 +149,9 @@ def test_a_figure_below_its_error_is_told_as_on_the_terminal_and_in_tables():
 
 def test_units_of_names_are_those_of_records():
     assert name_and_unit("film_wear_rate_nm_s") == ("film wear rate", "nm/s")
+    # `bem element` calls the highest one "contact temperature" and the rise of its surfaces "flash temperature"
+    assert name_and_unit("contact_temperature_C")[0] == "surfaces in contact, mean temperature"
+    assert name_and_unit("flash_temperature_C")[0] == "surfaces in contact, highest temperature"
     assert name_and_unit("wear_volume_mm3") == ("wear volume", "mm³")
     assert name_and_unit("sedimentation_time_h") == ("sedimentation time", "h")
     assert name_and_unit("worn_volume_per_cycle_um3") == ("worn volume per cycle", "µm³")

@@ -1170,3 +1170,13 @@ def test_cells_and_load_at_the_hardness_are_of_the_same_cells():
     assert told.values["cells"] == pytest.approx(capped / touching, rel=1e-12)
     assert told.values["load"] == pytest.approx(2 * capped / (2 * capped + 1), rel=1e-12)
     assert told.values["cells"] < told.values["load"], "cells touched in part carry less than their number"
+
+
+def test_lengths_of_grooves_are_given_across_and_along_them():
+    """The remark had their geometric mean, 20.6 um, which no other view shows."""
+    ground = {"process": "ground", "lay": "y", "rms_height": "100 nm"}
+    scene = with_(library()["stribeck-ball-on-disc"], lower__surface=ground)
+    assert any(
+        "6.5 um across and 65 um along the grooves of process ground" in note
+        for note in scene_warnings(facts_of(scene))
+    )

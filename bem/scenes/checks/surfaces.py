@@ -9,6 +9,7 @@ from bem.notes import Note
 from bem.notes.checks import MAP_COARSE, SLOPES_LARGE, SURFACE_IS_FORM, TYPICAL_LENGTHS
 from bem.notes.note import joined
 from bem.notes.scenes import MAP_ALTERED
+from bem.quantities import si
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.hertz import STEEP
 from bem.scenes.checks.registry import scene_check
@@ -44,15 +45,23 @@ def lengths_of_the_process(facts: Facts) -> Iterator[Note]:
     process is of the right size at best."""
     if not facts.of_kind("friction", "running-in", "running-in-life"):
         return
-    found: dict[tuple[str, float], list[str]] = {}
+    found: dict[tuple[str, str], list[str]] = {}
     for body in ("lower", "upper"):
         table = getattr(facts.scene, body).surface
         if not isinstance(table, GeneratedSurface) or table.process is None or table.correlation_length is None:
             continue
         if "correlation_length" not in table.source.rpartition("The scene itself gives")[2]:
-            found.setdefault((table.process, table.correlation_length), []).append(body)
-    for (process, length), bodies in found.items():
-        yield TYPICAL_LENGTHS(bodies=" and ".join(bodies), process=process, length=length)
+            found.setdefault((table.process, _across_and_along(table)), []).append(body)
+    for (process, lengths), bodies in found.items():
+        yield TYPICAL_LENGTHS(bodies=" and ".join(bodies), process=process, lengths=lengths)
+
+
+def _across_and_along(table: GeneratedSurface) -> str:
+    """Return the correlation lengths of a surface in words: across and along its grooves where they differ."""
+    across, along = sorted(table.correlation_lengths or ())
+    if math.isclose(across, along, rel_tol=1e-6):
+        return si(across, "m", 3)
+    return f"{si(across, 'm', 3)} across and {si(along, 'm', 3)} along the grooves"
 
 
 @scene_check
