@@ -111,10 +111,11 @@ def element(
     whole = at == "path"
     chosen = found.critical() if whole or not at else _chosen(found, at)
     if not at and scene is not None:
-        chosen = found.contact_for(kind)
-    if not at and scene is not None and chosen is not found.critical():
-        print_text(f"Scene of the contact with the thinnest film, {place_words(found, chosen)}.")
-        critical = found.critical()
+        chosen, critical = found.contact_for(kind), found.critical()
+        if _thinnest_unsteady(found, kind):
+            chosen = _with_steady_film(found, found.thinnest(), "thinnest", kind)
+        elif chosen is not critical:
+            print_text(f"Scene of the contact with the thinnest film, {place_words(found, chosen)}.")
         lower = chosen.hertz(found.modulus).maximum_pressure < critical.hertz(found.modulus).maximum_pressure
         if lower and abs(critical.slide_roll_ratio) <= 2:
             print_text(f"The highest pressure is at {place_words(found, critical)}: --at worst.")
@@ -294,6 +295,13 @@ def _chosen(found: Element, at: str) -> ElementContact:
 
 _FILM_KINDS = ("traction", "point-film", "friction", "running-in", "running-in-life")
 """Kinds of scene with an oil film."""
+
+
+def _thinnest_unsteady(found: Element, kind: str) -> bool:
+    """Return True if a scene takes the thinnest film and the surfaces run against each other at that place."""
+    from bem.elements.element import LIFE, MIXED
+
+    return kind in (*MIXED, LIFE) and found.model.oil is not None and abs(found.thinnest().slide_roll_ratio) > 2
 
 
 def _with_steady_film(found: Element, chosen: ElementContact, at: str, kind: str) -> ElementContact:

@@ -517,10 +517,13 @@ def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str,
         )
     if power.counted < 1:
         counts = "are left out" if power.with_asperities is None else "are left out of the former"
+        contacts = element.found.contacts
+        against = sum(abs(one.slide_roll_ratio) > 2 for one in contacts)
         said.append(
-            f"{percent(1 - power.counted)} of the positions {counts}: surfaces that run against each other have no "
-            "steady film"
+            f"{against} of {len(contacts)} positions {counts}: surfaces that run against each other have no steady film"
         )
+    if isinstance(model, CamModel):
+        said.append("means over the whole turn, without contact on the base circle")
     rows = []
     if isinstance(model, GearModel):
         tests = friction_of_gear_tests(element)

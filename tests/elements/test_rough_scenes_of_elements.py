@@ -271,14 +271,15 @@ def test_running_in_wears_summits_over_two_turns_in_stable_steps(name):
     assert (scene.cycles.count, scene.cycles.averaged) == (2 * turn, turn)
 
 
-@pytest.mark.parametrize("place", ["worst", "thinnest"])
+@pytest.mark.parametrize("place", ["worst", "thinnest", ""])
 def test_named_places_of_a_cam_without_a_steady_film_give_way_to_the_thinnest_one(place, tmp_path):
-    """Under the nose the surfaces run against each other."""
+    """Under the nose the surfaces run against each other. Without a place the scene is that of the thinnest film."""
     file, scene = tmp_path / "cam.toml", tmp_path / "mixed.toml"
     file.write_text(element_template("cam-follower"))
-    command = ["element", str(file), "--scene", str(scene), "--kind", "friction", "--at", place]
+    command = ["element", str(file), "--scene", str(scene), "--kind", "friction", *(["--at", place] if place else [])]
     done = CliRunner().invoke(build(), command)
     assert done.exit_code == 0, done.output
-    assert f"At the place {place} the surfaces run against each other" in done.output
+    assert f"At the place {place or 'thinnest'} the surfaces run against each other" in done.output
+    assert "contact with the thinnest film" not in done.output
     steady = load_element(file).thinnest_steady()
     assert load_scene(scene).speeds.slide_roll_ratio == pytest.approx(steady.slide_roll_ratio, rel=1e-6)

@@ -165,7 +165,10 @@ def test_what_is_not_known_is_said():
     runs = run_all(cam)
     assert len(runs) < 9  # under the nose there is no steady film
     said = dict(answer(cam, runs))
-    assert "of the positions are left out of the former: surfaces that run against" in said["friction power"]
+    count = sum(abs(one.slide_roll_ratio) > 2 for one in cam.found.contacts)
+    assert f"; {count} of 9 positions are left out of the former: surfaces that run against" in said["friction power"]
+    assert f"Not solved at {count} of 9 positions" in said["lambda ratio"]
+    assert said["friction power"].endswith("; means over the whole turn, without contact on the base circle")
     power = friction_power(cam, runs)
     nose = [one for one in cam.found.contacts if abs(one.slide_roll_ratio) > 2]
     rubbed = 0.12 * sum(one.load * abs(one.speeds[0] - one.speeds[1]) for one in nose) / 8 * cam.found.at_once
