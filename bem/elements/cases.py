@@ -11,6 +11,7 @@ Keys of tables are dotted, such as oil.base. An empty cell takes a key of the fi
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
@@ -64,10 +65,19 @@ def load_cases(source: str | Path, rows: str | Path) -> tuple[Element, ...]:
         try:
             found.append(load_element(case))
         except InputError as error:
-            messages += [f"row {number} of {rows}: {text}" for text in error.messages]
+            messages += [f"row {number} of {rows}: {_of_cells(text, columns)}" for text in error.messages]
     if messages:
         raise InputError(messages)
     return tuple(found)
+
+
+def _of_cells(text: str, columns: Mapping[str, object]) -> str:
+    """Return a mistake in an oil that has its own base in words of the table: its cells are left empty."""
+    cells = [name for name in ("oil.base", "oil.viscosity_index") if name in columns]
+    if not cells or "has its own" not in text:
+        return text
+    said = f"leave the cell{'s' if len(cells) > 1 else ''} of {' and '.join(cells)} empty"
+    return re.sub("leave (them|base = .*?) out", said, text)
 
 
 def _replaced(key: str, columns: Mapping[str, object]) -> bool:

@@ -39,7 +39,10 @@ def test_a_grade_with_its_own_base_takes_the_place_of_the_files(file, tmp_path):
     assert (first.base, first.viscosity_index, first.oil.name) == (None, None, "PAO 40")
     assert (second.base, second.viscosity_index) == ("pao", 150)
     rows.write_text("oil.grade, oil.base\nPAO 40, ester\n")
-    with pytest.raises(InputError, match="has its own viscosity index and base"):
+    with pytest.raises(InputError, match=r"has its own viscosity index and base; leave the cell of oil\.base empty"):
+        load_cases(file, rows)
+    rows.write_text("oil.grade, oil.base\nester 32, pao\n")
+    with pytest.raises(InputError, match=r"has its own base ester; leave the cell of oil\.base empty"):
         load_cases(file, rows)
 
 
