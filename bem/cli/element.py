@@ -174,13 +174,12 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
     from bem.cli._terminal import Terminal, print_written, show_warnings, table
     from bem.cli.run import tell_compiling
     from bem.elements.answer import PLACES, all_notes, balance_heat
-    from bem.elements.cases import changed_keys, columns, load_cases
+    from bem.elements.cases import changed_keys, columns, load_cases, notes_of_cases
     from bem.elements.element import csv_text, read_element
     from bem.elements.plain_bush import PlainBushModel
     from bem.elements.running import run_all
     from bem.errors import InputError
     from bem.notes import Level
-    from bem.notes.merge import merge
     from bem.results.atomic import write_text
 
     if any(others):
@@ -204,7 +203,7 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
         every = all_notes(one, each)
         bush = isinstance(one.model, PlainBushModel)
         told.append([note for note in every if bush or note.level is not Level.INFO])
-    show_warnings(merge(told, _rows_of))
+    show_warnings(notes_of_cases(told))
     unnamed = [f"{read_element(file)['name']}-{number}" for number in range(1, len(cases) + 1)]
     named = found["case"] != unnamed
     hidden = {*([] if named else ["case"]), *([*_BY_FORMULA, "thinnest_by_formula"] if runs else [])}
@@ -221,11 +220,6 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
     if out is not None:
         write_text(out, csv_text(found))
         print_written(out)
-
-
-def _rows_of(rows: list[int]) -> str:
-    """Return the numbers of rows of cases in words."""
-    return f"row{'s' if len(rows) > 1 else ''} {', '.join(str(row + 1) for row in rows)}"
 
 
 def _spelled(name: str, value: float) -> str:

@@ -12,7 +12,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, get_args
@@ -33,6 +34,8 @@ from bem.elements.running import Running
 from bem.errors import InputError
 from bem.kinds.traction.along import columns_of
 from bem.lubrication.oils.catalogue import find_oil
+from bem.notes import Note
+from bem.notes.merge import identity, merge
 from bem.scenes.paths import Key, parse_key, put, value_at
 from bem.scenes.values import plain_value
 
@@ -181,6 +184,25 @@ def columns(
         if all(known):
             found |= _known(_solved(cases, known))
     return found | _known(_lives(cases, runs))
+
+
+def notes_of_cases(by_case: Sequence[Sequence[Note]]) -> list[Note]:
+    """Return the notes of several cases, each once with its rows.
+
+    How many positions of a row a note is of is left out where it differs between the rows.
+
+    by_case : notes of each case, those of its films with the number of positions as `bem.elements.running.notes`.
+    """
+
+    def anywhere(note: Note) -> Note:
+        counted = note.where.endswith(" positions")
+        return Note(note.code, note.level, note.values, "", note.texts) if counted else note
+
+    places: dict[Hashable, set[str]] = {}
+    for note in chain.from_iterable(by_case):
+        places.setdefault(identity(anywhere(note)), set()).add(note.where)
+    whole = [[anywhere(one) if len(places[identity(anywhere(one))]) > 1 else one for one in each] for each in by_case]
+    return merge(whole, lambda rows: f"row{'s' if len(rows) > 1 else ''} {', '.join(str(row + 1) for row in rows)}")
 
 
 def _rubbing(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dict[str, list[float | str]]:

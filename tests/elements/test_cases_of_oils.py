@@ -3,8 +3,9 @@
 import pytest
 
 from bem import InputError
-from bem.elements.cases import load_cases
+from bem.elements.cases import load_cases, notes_of_cases
 from bem.elements.element import MODELS, element_template
+from bem.notes.lubrication import LUMPED_HEAT_LIMIT
 
 CAM_OIL = """
 [oil]
@@ -54,3 +55,20 @@ def test_keys_of_tables_are_columns(tmp_path):
     rows.write_text("oil.bas\npao\n")
     with pytest.raises(InputError, match=r'did you mean "oil\.base"'):
         load_cases(file, rows)
+
+
+def test_a_note_on_films_of_several_cases_is_one_line():
+    """However many positions of each row it is of; other rows are not named, and another reason is another line."""
+    notes = [
+        LUMPED_HEAT_LIMIT(f"at {k} of 12 positions", reason="fast", loading=0.1 * k, limit=0.1, remedy="")
+        for k in (2, 3)
+    ]
+    whole = LUMPED_HEAT_LIMIT(reason="fast", loading=2.0, limit=0.1, remedy="")
+    (one,) = notes_of_cases([notes[:1], notes[1:], [], [whole]])
+    assert one.where == "rows 1, 2, 4"
+    assert one.values["loading"] == (0.2, 2.0)
+    (one,) = notes_of_cases([notes[:1], [whole]])
+    assert one.where == ""
+    slides = LUMPED_HEAT_LIMIT("at 1 of 12 positions", reason="slides", remedy="")
+    found = [note.where for note in notes_of_cases([notes[:1], [slides]])]
+    assert found == ["row 1, at 2 of 12 positions", "row 2, at 1 of 12 positions"]
