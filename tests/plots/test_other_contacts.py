@@ -251,10 +251,12 @@ def test_a_map_without_anything_on_it_is_not_drawn():
     kind = friction_map.FRICTION_MAP
     x, y = (1e-6 * (np.arange(cells) - (cells - 1) / 2) for cells in (16, 28))
     stress = np.full((16, 28), 1e8)
-    for oil, maps in ((1e3, 1), (1e8, 2)):
+    shares = {4e-3: "96.2 % of friction\noil between them: 3.8 %,\nat stresses too small to show"}
+    shares |= {1e-6: "100.0 % of friction", -1e-4: "100.0 % of friction"}  # it was 100.1 %, and -0.1 % of the oil
+    for oil, part, maps in ((1e3, 4e-3, 1), (1e3, 1e-6, 1), (1e3, -1e-4, 1), (1e8, 1e-6, 2)):
         run = run_of(
             x=x, y=y, boundary_stress=(("x", "y"), stress), oil_stress=(("x", "y"), np.full((16, 28), oil)),
-            shown_speed=0.1, speed=[0.1], boundary_part=("speed", [0.1]), film_part=("speed", [1e-6]),
+            shown_speed=0.1, speed=[0.1], boundary_part=("speed", [0.1]), film_part=("speed", [part]),
         )  # fmt: skip
         figure = Figure(figsize=kind.size, layout="constrained")
         kind.draw(run, figure)
@@ -263,7 +265,8 @@ def test_a_map_without_anything_on_it_is_not_drawn():
         assert left < 0.2  # one high map had a third of the figure empty beside it
         titles = [axes.get_title() for axes in figure.axes if axes.images]
         assert len(titles) == maps
-        assert ("oil between them: < 0.1 %,\nat stresses too small to show" in titles[0]) is (maps == 1)
+        assert maps == 2 or titles == [f"surfaces in contact:\n{shares[part]}"]
+        assert all(axes.title.get_window_extent().x1 <= figure.bbox.x1 for axes in figure.axes)
 
 
 def test_nothing_worn_is_no_curve_over_cycles():
@@ -429,6 +432,11 @@ def test_a_section_under_a_ball_runs_through_its_middle(contact, touching):
     (upper, _) = drawn(kind.draw, run).axes
     (spots,) = (line for line in upper.lines if line.get_label() == "in contact")
     assert spots.get_xdata().size == touching
+    assert "lower surface, deformed" in {line.get_label() for line in upper.lines}
+    peaks = SimpleNamespace(dataset=run.dataset.assign(height=100 * run.dataset["pressure"]), scene=run.scene)
+    peaks.dataset["height"].values[:] = np.where(pressure > 0, 4e-7, 0.0)  # above a separation of 0.1 um
+    (upper, _) = drawn(kind.draw, peaks).axes
+    assert "lower surface, deformed (capped peaks overlap)" in {line.get_label() for line in upper.lines}
     figure = Figure(layout="constrained")
     kind.draw(run, figure)
     figure.draw_without_rendering()

@@ -139,6 +139,10 @@ def _temperatures(run: Any, figure: Figure) -> None:
     axes.legend(fontsize=8)
 
 
+_OVERLAP = 1e-9
+"""Height above the upper surface from which a peak that yields under the capped pressure is said to overlap it [m]."""
+
+
 def _section(run: Any, figure: Figure) -> None:
     """Draw a line along the sliding at the speed at which film and contact share the load most evenly."""
     data = run.dataset
@@ -155,8 +159,10 @@ def _section(run: Any, figure: Figure) -> None:
     upper.plot(x[seen] * factor_x, plane[seen] * 1e9, color=BLUE, label="upper surface, drawn smooth")
     film = data["film_thickness_patch"].values
     upper.plot(x[seen] * factor_x, film[seen] * 1e9, color=SKY, linestyle="--", label="film thickness")
-    upper.plot(x[seen] * factor_x, deformed[seen] * 1e9, color="0.25", linewidth=1.0, label="lower surface, deformed")
     touch = seen & (pressure[:, row] > 0)
+    overlaps = bool(((deformed - plane)[touch] > _OVERLAP).any())
+    words = "lower surface, deformed" + (" (capped peaks overlap)" if overlaps else "")
+    upper.plot(x[seen] * factor_x, deformed[seen] * 1e9, color="0.25", linewidth=1.0, label=words)
     upper.plot(x[touch] * factor_x, deformed[touch] * 1e9, ".", color=VERMILION, markersize=4, label="in contact")
     low = float(deformed[seen].min()) * 1e9
     high = 1.4e9 * float(np.quantile(film[seen], 0.75))

@@ -23,6 +23,8 @@ _AROUND, _NARROW = (1.6, 1.0), 3.0
 """Space of a map's axes, bar and title along both directions, and the width of its title [inch]."""
 _SOME = 0.02
 """Fraction of the largest stress from which a cell counts as carrying friction."""
+_SAID = 0.01
+"""Share of friction from which a part without a map is named; a smaller one may be a rolling resistance below zero."""
 
 
 def _shares(run: Any) -> tuple[float, float]:
@@ -71,7 +73,7 @@ def _friction_map(run: Any, figure: Figure) -> None:
     left = [
         f"\n{text}: {_few(share)},\nat stresses too small to show"
         for (text, stress), share in shared
-        if stress.max() <= least
+        if stress.max() <= least and abs(share) >= _SAID
     ]
     for axes, ((text, stress), share) in zip(panels, held, strict=True):
         shown = stress[window]
@@ -79,7 +81,10 @@ def _friction_map(run: Any, figure: Figure) -> None:
         axes.set_facecolor(OPEN)
         values = thinned(np.where(shown > least, shown, np.nan)).T * factor
         image = axes.imshow(values, extent=extent, origin="lower", aspect=axes.get_aspect(), vmin=0, vmax=most)
-        axes.set_title(f"{text}: {_few(share)} of friction{''.join(left)}", fontsize=8.5)
+        # beside a rolling resistance below _SAID, of either sign, the rest is all of friction
+        said = f"{_few(share if left or len(held) > 1 else min(share, 1.0))} of friction"
+        line = "\n" if len(held) < 2 else " "  # a narrow figure cut the title
+        axes.set_title(f"{text}:{line}{said}{''.join(left)}", fontsize=8.5)
     colour_bar(figure, list(panels), image, carries[window], factor, label("shear stress", unit))
 
 
