@@ -59,6 +59,10 @@ _OF_LOWER = "    # of the lower surface; the entrainment speed is {mean}"
 """Comment on the speed of a scene with sliding."""
 
 
+_MAGNITUDE = "    # friction in the results is positive where it resists the sliding; bem element gives that of body 1"
+"""Comment on a negative slide-to-roll ratio in a scene of mixed friction, beside which `bem element` has a sign."""
+
+
 _FLANKS = "    # of the flanks, estimated with this oil: another oil needs its own (bem element --cases)"
 """Comment on the oil's temperature where it is that of flanks by an estimate."""
 
@@ -134,6 +138,12 @@ def scene_text(
             lines[-len(inner) + list(inner).index("temperature")] += _FLANKS
         if rolls and key == "speeds":
             lines[-1] += _PURE_ROLLING
+        if (
+            key == "speeds"
+            and table.get("kind") in ("friction", "running-in")
+            and speeds.get("slide_roll_ratio", 0) < 0
+        ):
+            lines[-len(inner) + list(inner).index("slide_roll_ratio")] += _MAGNITUDE
         if key == "speeds" and speeds.get("slide_roll_ratio") and len(speeds.get("values", [])) == 1:
             mean = speeds["values"][0] / (1 + 0.5 * speeds["slide_roll_ratio"])
             lines[-len(inner)] += _OF_LOWER.format(mean=si(mean, "m/s", 4))

@@ -283,3 +283,13 @@ def test_named_places_of_a_cam_without_a_steady_film_give_way_to_the_thinnest_on
     assert "contact with the thinnest film" not in done.output
     steady = load_element(file).thinnest_steady()
     assert load_scene(scene).speeds.slide_roll_ratio == pytest.approx(steady.slide_roll_ratio, rel=1e-6)
+
+
+def test_scenes_say_that_friction_has_no_sign_of_a_body():
+    """Before point C `bem element` has a negative friction coefficient where the scene's is positive."""
+    for name, slower in (("gear-pair", True), ("roller", False)):
+        element = element_of(name)
+        made = element.scene(element.worst(), "friction")
+        assert (made["speeds"]["slide_roll_ratio"] < 0) is slower
+        lines = [line for line in scene_text(made).splitlines() if "positive where it resists" in line]
+        assert [line.partition(" ")[0] for line in lines] == ["slide_roll_ratio"] * slower

@@ -1,11 +1,14 @@
 """Shear of the oil on cells in contact: what it is, that friction is without it, and when that is said."""
 
+from typing import get_type_hints
+
 import numpy as np
 import pytest
 from mixed_case import mixed_case
 
 from bem import Lubricant, solve_mixed
 from bem.friction.result_notes import MATTERS, oil_on_contact_notes
+from bem.kinds.friction.record import CurveRecord
 from bem.notes import Level
 from bem.notes.friction import OIL_ON_CONTACT
 from bem.notes.lubrication import INLET_FRICTION
@@ -85,3 +88,8 @@ def test_the_inlet_s_note_is_of_the_printed_friction_coefficient():
     assert note.values["friction"] == pytest.approx(0.04)
     assert "0.04, counts asperities" in note
     assert notes_of_balance([own], [own]) == (own.at("film"),)  # of a kind that prints no friction coefficient
+
+
+def test_what_has_no_error_bar_is_named_as_a_second_balance():
+    (figure,) = get_type_hints(CurveRecord, include_extras=True)["loaded_friction"].__metadata__
+    assert "a second balance, which counts the oil over another area" in figure.no_bar

@@ -31,8 +31,8 @@ _WAVES = "the waves are linear in the heights, and were compared with marches"
 _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="first")
 _LOADS = ("contact_load", "film_load")
 _OTHER = (
-    "the balance with the oil beside the contact counted otherwise only shows how far the result depends on it; it is "
-    "solved to 0.1 % of the oil volume"
+    "they belong to a second balance, which counts the oil over another area and only shows how far friction and loads "
+    "depend on that area; it is solved to 0.1 % of the oil volume"
 )
 _other_oil = partial(_curve, no_bar=_OTHER)
 _supplied = partial(
