@@ -146,10 +146,22 @@ def test_what_did_not_converge_is_no_figure(gears):
     assert "friction power" not in alone
 
 
-@pytest.mark.parametrize(("ratio", "says"), [(0.39, True), (0.41, False)])
-def test_thin_films_say_that_the_estimate_is_of_run_in_surfaces(gears, ratio, says):
-    """Below a lambda ratio of 0.4 scenes of new surfaces have far more load on asperities; solved shares need none."""
+@pytest.mark.parametrize(
+    ("kind", "ratio", "says"),
+    [
+        ("gear-pair", 0.99, True),
+        ("gear-pair", 1.01, False),
+        ("rolling-bearing", 0.39, True),
+        ("rolling-bearing", 0.41, False),
+    ],
+)
+def test_thin_films_say_that_the_estimate_is_of_run_in_surfaces(gears, kind, ratio, says):
+    """Scenes of new ground surfaces have far more load on asperities below a lambda ratio of one, superfinished ones
+    below 0.4; solved shares need no such words."""
     element, runs = gears
+    if kind != "gear-pair":
+        element = element_of(kind)
+        runs = run_all(element)
     thin = replace(runs[0], minimum_film=1e-9, film_ratio=ratio, asperity_share=0.5)
     words = dict(answer(element, [thin, *runs[1:]]))["lambda ratio"]
     assert "of the load, an estimate" in words
