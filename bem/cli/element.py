@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -212,7 +212,7 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
     shown = [name for name in found if name not in hidden]
     lines = [
         tuple(one if isinstance(one, str) else _spelled(name, one) for name, one in zip(shown, row, strict=True))
-        for row in zip(*(found[name] for name in shown), strict=True)
+        for row in zip(*(_life_words(found, name) for name in shown), strict=True)
     ]
     head = tuple(_CASE_HEADS.get(name, name.partition(" [")[0].replace("_", " ")) for name in shown)
     leading = len(changed) + named
@@ -220,6 +220,16 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
     if out is not None:
         write_text(out, csv_text(found))
         print_written(out)
+
+
+def _life_words(found: Mapping[str, list[float | str]], name: str) -> list[float | str]:
+    """Return a column of the cases, of modified lives with "not defined" where kappa is too small for ISO 281."""
+    if name not in ("modified_life [h]", "modified_reference_life [h]"):
+        return found[name]
+    return [
+        "not defined" if math.isnan(float(life)) and not math.isnan(float(kappa)) else life
+        for life, kappa in zip(found[name], found["viscosity_ratio"], strict=True)
+    ]
 
 
 def _spelled(name: str, value: float) -> str:

@@ -31,7 +31,7 @@ from bem.elements.reference_life import (
 )
 from bem.elements.rolling_bearing import BearingModel
 from bem.notes import Note
-from bem.notes.elements import KAPPA_ABOVE_FILM, LOAD_ABOVE_LIFE_FORMULA
+from bem.notes.elements import KAPPA_ABOVE_FILM, LOAD_ABOVE_LIFE_FORMULA, STATIC_LOAD_ABOVE_RATING
 
 HIGHEST_LOAD = 0.5
 """P / C up to which the formulas of ISO 281 hold."""
@@ -167,11 +167,19 @@ def life_rows(element: Element, film_ratio: float | None = None) -> list[tuple[s
     said = _modified(model, life)
     if of_film is not None:
         assert film_ratio is not None
-        said = (
-            f"{_life_of_film(of_film.rating.modified, model)}: use this one, as lambda = {film_ratio:.3g} of these "
-            f"rough surfaces stands for kappa = {of_film.rating.viscosity_ratio:.3g}. With the usual finish of "
-            f"bearings {said}"
-        )
+        name, film, film_life = f"L{100 - model.reliability}m", of_film.rating.viscosity_ratio, of_film.rating.modified
+        assert film is not None
+        if film_life is None:
+            said = (
+                f"{name} not defined: kappa {film:.2g}, for which lambda = {film_ratio:.3g} of these rough surfaces "
+                f"stands, is below {LEAST_KAPPA}, where ISO 281 gives no modified life; take a thicker oil or a finer "
+                f"finish. With the usual finish of bearings {said}"
+            )
+        else:
+            said = (
+                f"{name} = {_life(film_life, speed)}: use this one, as lambda = {film_ratio:.3g} of these rough "
+                f"surfaces stands for kappa = {film:.3g}. With the usual finish of bearings {said}"
+            )
     rows.append(("modified rating life", said))
     said = f"L10r = {_life(life.reference.basic, speed)}"
     if life.modified_reference is not None:
@@ -206,13 +214,16 @@ def life_notes(element: Element, film_ratio: float | None) -> tuple[Note, ...]:
     """
     model = element.model
     assert isinstance(model, BearingModel)
-    rating, of_film = bearing_life(element).rating, life_of_film(element, film_ratio)
-    notes = []
+    life, of_film = bearing_life(element), life_of_film(element, film_ratio)
+    rating, notes = life.rating, []
     if rating.load > HIGHEST_LOAD * rating.dynamic_rating:
         notes.append(LOAD_ABOVE_LIFE_FORMULA(ratio=rating.load / rating.dynamic_rating))
+    if life.static_rating < life.static_load:
+        notes.append(STATIC_LOAD_ABOVE_RATING(safety=life.static_rating / life.static_load))
     if of_film is not None:
         kappa, film = rating.viscosity_ratio, of_film.rating.viscosity_ratio
-        notes.append(KAPPA_ABOVE_FILM(kappa=kappa, ratio=film_ratio, film=film))
+        reason = "not defined" if of_film.rating.modified is None else "shorter"
+        notes.append(KAPPA_ABOVE_FILM(kappa=kappa, ratio=film_ratio, film=film, reason=reason))
     return tuple(notes)
 
 
@@ -247,14 +258,6 @@ def _modified(model: BearingModel, life: BearingLife) -> str:
         f"kappa = {rating.viscosity_ratio:.3g} ({needed}), e_C = {rating.contamination:.3g}{dirt}, "
         f"C_u = {1e-3 * rating.fatigue_limit:.3g} kN"
     )
-
-
-def _life_of_film(revolutions: float | None, model: BearingModel) -> str:
-    """Return the modified life with the kappa of the film in words."""
-    name = f"L{100 - model.reliability}m"
-    if revolutions is None:
-        return f"{name} not defined (kappa below {LEAST_KAPPA})"
-    return f"{name} = {_life(revolutions, model.speed)}"
 
 
 def _life(revolutions: float, speed: float) -> str:

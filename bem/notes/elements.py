@@ -37,17 +37,37 @@ KAPPA_ABOVE_FILM = define(
     "kappa-above-film",
     CAUTION,
     "These surfaces are rougher than the viscosity ratio kappa assumes: the modified life is shorter.",
-    "kappa = {kappa:.3g} is the viscosity over the one that bearings of usual finish need. These surfaces have lambda "
-    "= {ratio:.3g}, which stands for kappa = {film:.3g} (ISO 281: kappa is about lambda to the power 1.3).",
-    "Use the modified lives with the kappa of lambda, {film:.3g}.",
+    reasons={
+        "shorter": Reason(
+            "kappa = {kappa:.3g} is the viscosity over the one that bearings of usual finish need. These surfaces have "
+            "lambda = {ratio:.3g}, which stands for kappa = {film:.3g} (ISO 281: kappa is about lambda to the power "
+            "1.3).",
+            "Use the modified lives with the kappa of lambda, {film:.3g}.",
+        ),
+        "not defined": Reason(
+            "kappa = {kappa:.3g} is the viscosity over the one that bearings of usual finish need. These surfaces have "
+            "lambda = {ratio:.3g}, which stands for kappa = {film:.3g} (ISO 281: kappa is about lambda to the power "
+            "1.3); below 0.1 ISO 281 gives no modified life.",
+            "Take a thicker oil or a finer finish.",
+            headline="The film is too thin for a modified life: kappa of lambda is {film:.2g}, below 0.1.",
+        ),
+    },
 )
 LOAD_ABOVE_LIFE_FORMULA = define(
     "load-above-life-formula",
-    INFO,
+    CAUTION,
     "The load is above half the dynamic rating.",
     "P / C = {ratio:.2g}; ISO 281 says that its life formulas hold up to 0.5, above which local plastic deformation "
     "shortens lives.",
     "Take the lives as upper bounds.",
+)
+STATIC_LOAD_ABOVE_RATING = define(
+    "static-load-above-rating",
+    CAUTION,
+    "The load is above the static rating: static safety C0 / P0 is {safety:.2g}, below 1.",
+    "Below 1 rolling elements and raceways keep a permanent deformation of more than about 1/10000 of the element's "
+    "diameter, which the static rating of ISO 76 allows.",
+    "Lower the load, or take a larger bearing.",
 )
 SURFACES_TOUCH = define(
     "element-surfaces-touch",

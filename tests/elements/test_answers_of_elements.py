@@ -363,7 +363,26 @@ def test_a_favourable_kappa_beside_a_thin_film_is_said():
     assert life_notes(rough, 3.0) == ()
     assert life_notes(rough, None) == ()
     heavy = load_element(STEEL_BEARING | {"radial_load": "40 kN"})
-    assert [note.code for note in life_notes(heavy, None)] == ["load-above-life-formula"]
+    (note,) = life_notes(heavy, None)
+    assert (note.code, note.level) == ("load-above-life-formula", Level.CAUTION)
+
+
+def test_no_life_is_recommended_where_iso_281_defines_none():
+    rough = load_element(STEEL_BEARING | {"rms_roughness": "1 um"})
+    (note,) = life_notes(rough, 0.066)
+    assert "kappa of lambda is 0.029, below 0.1" in note.headline
+    assert "Use the modified lives" not in str(note)
+    said = dict(life_rows(rough, 0.066))["modified rating life"]
+    assert said.startswith("L10m not defined: kappa 0.029")
+    assert "use this one" not in said
+
+
+def test_a_load_above_the_static_rating_is_a_caution():
+    life = bearing_life(load_element(STEEL_BEARING))
+    for factor, told in ((0.99, False), (1.01, True)):
+        load = factor * life.static_rating / life.static_load * load_element(STEEL_BEARING).model.load
+        notes = life_notes(load_element(STEEL_BEARING | {"radial_load": f"{load} N"}), None)
+        assert ("static-load-above-rating" in [note.code for note in notes if note.level is Level.CAUTION]) is told
 
 
 def test_a_speed_without_a_unit_is_said_in_rpm():
