@@ -125,10 +125,12 @@ def thick_film_words(model: PlainBushModel, film: FilmOfBush) -> str | None:
 
 def bounds_words(thickness: float, journal: JournalFilm) -> str:
     """Return the films of the equivalent cylinder, of a thickness [m], and of the journal bearing in words."""
-    return (
-        f"minimum film about {si(thickness, 'm', 2)} as of an endless cylinder on a flat, about "
-        f"{si(journal.minimum_thickness, 'm', 2)} by an estimate as a rigid journal bearing of this length"
-    )
+    return f"minimum film about {si(thickness, 'm', 2)} as of an endless cylinder on a flat, {journal_words(journal)}"
+
+
+def journal_words(journal: JournalFilm) -> str:
+    """Return the minimum film of the journal bearing in words."""
+    return f"about {si(journal.minimum_thickness, 'm', 2)} by an estimate as a rigid journal bearing of this length"
 
 
 def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[float | None, str]:

@@ -16,7 +16,7 @@ from types import MappingProxyType
 from typing import Any
 
 from bem.arguments import read_small
-from bem.elements.bush_answer import bounds_words, bush_temperature, friction_power_of, journal_beside
+from bem.elements.bush_answer import bush_temperature, friction_power_of, journal_beside, journal_words
 from bem.elements.bush_friction import SharedFriction, shared_friction
 from bem.elements.cam_follower import CamModel
 from bem.elements.contact import WIDE, ElementContact
@@ -435,12 +435,12 @@ class Element:
         return base | film
 
     def _film_bounds(self, bush: PlainBushModel, contact: ElementContact) -> list[str]:
-        """Return the bounds of a film in words, by the film formula, where a scene of a bush takes it too thick."""
+        """Return the lower bound of a film in words where, by the film formula, a bush's scene takes it too thick."""
         thickness = contact.minimum_film(self._patch_modulus, self._film_oil().build())
         journal = journal_beside(bush, thickness)
         if journal is None:
             return []
-        return [f"the film of this scene is an upper bound, too thick: {bounds_words(thickness, journal)}"]
+        return [f"the film of this scene is an upper bound, too thick: minimum film {journal_words(journal)}"]
 
     def shared_friction(self, contact: ElementContact) -> SharedFriction | None:
         """Solve the load sharing of one contact of a bush between its film and a ground shaft of the given roughness.

@@ -252,7 +252,8 @@ BUSH_BOUNDS = define(
     "{film:si m} thick, as of an endless cylinder on a flat, from whose ends nothing leaks (friction coefficient "
     "{friction:.2g}), and by an estimate at least {journal:si m}, as of a rigid journal bearing of this length, which "
     "does not flatten (friction coefficient {turning:.2g}).",
-    "Judge touching by the lower bound, or solve it with a program for elastic journal bearings.",
+    'Judge touching by the lower bound (of --cases the column "film as journal bearing"), or solve it with a program '
+    "for elastic journal bearings.",
 )
 BUSH_WARMER_THAN_OIL = define(
     "bush-warmer-than-oil",

@@ -286,6 +286,7 @@ def test_a_film_that_reaches_far_around_stands_between_two_bounds():
         about = element.scene(element.found.contacts[0], kind)["description"]
         assert "upper bound" in about
         assert "rigid journal bearing" in about
+        assert "endless cylinder" not in about
     assert (
         "upper bound" not in load_element(WATER).scene(load_element(WATER).found.contacts[0], "traction")["description"]
     )
