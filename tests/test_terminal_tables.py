@@ -123,8 +123,8 @@ def test_a_sweep_prints_its_figures(capsys):
 
 
 def whole_units(head):
-    """The unit at the end of a head, such as "(W/(m K))"; not "(under the whole load)"."""
-    return re.findall(r"\((?!under)(?:[^()]|\([^()]*\))*\)$", head)
+    """The unit at the end of a head, such as "(W/(m K))"; not "(if the film carried the whole load)", "(relative)"."""
+    return re.findall(r"\((?!under|if|relative)(?:[^()]|\([^()]*\))*\)$", head)
 
 
 @pytest.mark.parametrize("width", [60, 80])

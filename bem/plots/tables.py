@@ -99,6 +99,7 @@ _LABELS = {
     "particles_first_cycle": "particles in the first cycle, of one body",
     "particles_last_cycles": "particles in all of the last cycles, of one body",
     "criterion_wear_rate": "wear volume over load and sliding distance",
+    "residual": "solver residual (relative)",
     "lower_Sq": "Sq of the lower surface",
     "upper_Sq": "Sq of the upper surface",
     "lower_Sq_initial": "Sq of the lower surface, initial",
@@ -118,9 +119,9 @@ _LABELS = {
     "minimum_thickness": "minimum film thickness",
     "central_thickness": "central film thickness",
     "minimum_film": "minimum film thickness (under the film's load)",
-    "minimum_film_whole": "minimum film thickness (under the whole load)",
-    "lambda_ratio": "lambda ratio (under the whole load)",
-    "lambda_ratio_initial": "lambda ratio (under the whole load), initial",
+    "minimum_film_whole": "minimum film thickness (if the film carried the whole load)",
+    "lambda_ratio": "lambda ratio (if the film carried the whole load)",
+    "lambda_ratio_initial": "lambda ratio (if the film carried the whole load), initial",
     "lambda_ratio_mixed": "lambda ratio (under the film's load)",
 }
 """Labels that say the region or the definition of a figure, by its name without the unit."""
@@ -516,7 +517,7 @@ def place_tables(summary: Mapping[str, Any]) -> list[FigureTable]:
         elif name.startswith("layer"):
             where = [str(layer) for layer in layers]
         else:
-            where = [f"below {layer}" for layer in layers]
+            where = [f"under {layer}" for layer in layers]
         axes = [summary.get(f"{name}_{axis}_m") for axis in ("x", "y", "depth")]
         if axes[0] is None:
             continue
@@ -525,7 +526,7 @@ def place_tables(summary: Mapping[str, Any]) -> list[FigureTable]:
         if any(len(column) != len(where) for column in columns):
             return []
         words = name_and_unit(f"{name}_Pa")[0].removeprefix("layer ").removeprefix("interface ")
-        words = words.removeprefix("substrate ")
+        words = words.removeprefix("substrate ") + (" across the interface" if name.startswith("interface") else "")
         found += [(words, place, list(row)) for place, row in zip(where, zip(*columns, strict=True), strict=True)]
     if not found:
         return []

@@ -19,10 +19,10 @@ HEADLINE = ("speed_m_s", "friction", "contact_load_N", "lambda_ratio")
 
 def test_a_list_is_told_by_its_ends_and_where_they_are():
     found = {one.words: one for one in answers(CURVE, HEADLINE, {})}
-    assert list(found) == ["friction coefficient", "asperity load", "lambda ratio (under the whole load)"]
+    assert list(found) == ["friction coefficient", "asperity load", "lambda ratio (if the film carried the whole load)"]
     assert found["friction coefficient"].value == "0.01 to 0.12"
     assert found["friction coefficient"].where == "least at 100 mm/s; largest ± 0.001 at 1 mm/s"
-    assert found["lambda ratio (under the whole load)"].value == "1 to 3"
+    assert found["lambda ratio (if the film carried the whole load)"].value == "1 to 3"
 
 
 def test_what_was_given_and_what_is_zero_is_no_answer():

@@ -62,8 +62,8 @@ def test_places_of_the_highest_stresses_of_layers_have_one_unit_a_column():
     assert table.rows == (
         ("max tension", "CrN", "-99.99", "0.7812", "0"),
         ("max tension", "Cr", "-106", "–", "3"),
-        ("max shear", "below CrN", "8.75", "0.7812", "3"),
-        ("max shear", "below Cr", "11.25", "11.72", "3.3"),
+        ("max shear across the interface", "under CrN", "8.75", "0.7812", "3"),
+        ("max shear across the interface", "under Cr", "11.25", "11.72", "3.3"),
     )
     assert AT_EDGE in table.title
     assert all(is_place(name) for name in summary if name.endswith(("_x_m", "_y_m", "max_tension_depth_m")))

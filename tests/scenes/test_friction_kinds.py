@@ -92,7 +92,7 @@ def test_both_lambda_ratios_stand_under_their_own_keys(friction):
     heads = [head for table in figure_tables(summary, names) for head in table.head]
     assert any("minimum film thickness (under the film's load)" in head for head in heads)
     assert [head for head in heads if "lambda" in head] == [
-        "lambda ratio (under the whole load)",
+        "lambda ratio (if the film carried the whole load)",
         "lambda ratio (under the film's load)",
     ]
 

@@ -136,8 +136,8 @@ def _column(case: Case) -> dict[str, str]:
         found["lengths"] = times(grid.lengths, "m")
     if case.load is not None:
         found["load on the grid"] = si(case.load, "N")
-        found["mean pressure"] = "" if case.mean_pressure is None else si(case.mean_pressure, "Pa")
-    found["highest pressure"] = "" if case.cap is None else f"{si(case.cap, 'Pa')} (hardness)"
+        found["load over grid area"] = "" if case.mean_pressure is None else si(case.mean_pressure, "Pa")
+    found["pressure limit"] = "" if case.cap is None else f"{si(case.cap, 'Pa')} (hardness)"
     if smooth is not None:
         semi_axes = smooth.semi_axes
         on_layer = line_contact_on_layer(case.lower, case.upper, smooth)
