@@ -35,6 +35,7 @@ from bem.errors import InputError
 from bem.kinds.traction.along import columns_of
 from bem.lubrication.oils.catalogue import find_oil
 from bem.notes import Note
+from bem.notes.checks import SLOPES_LARGE
 from bem.notes.merge import identity, merge
 from bem.scenes.paths import Key, parse_key, put, value_at
 from bem.scenes.values import plain_value
@@ -189,7 +190,8 @@ def columns(
 def notes_of_cases(by_case: Sequence[Sequence[Note]]) -> list[Note]:
     """Return the notes of several cases, each once with its rows.
 
-    How many positions of a row a note is of is left out where it differs between the rows.
+    How many positions of a row a note is of is left out where it differs between the rows, and so are the names of the
+    places where contacts are wide for their bodies.
 
     by_case : notes of each case, those of its films with the number of positions as `bem.elements.running.notes`.
     """
@@ -198,11 +200,24 @@ def notes_of_cases(by_case: Sequence[Sequence[Note]]) -> list[Note]:
         counted = note.where.endswith(" positions")
         return Note(note.code, note.level, note.values, "", note.texts) if counted else note
 
+    wide = [note for note in chain.from_iterable(by_case) if _is_of_wide_places(note)]
+    if len({(note.values["first"], note.values["others"]) for note in wide}) > 1:
+        by_case = [[_at_some_places(one) if _is_of_wide_places(one) else one for one in each] for each in by_case]
     places: dict[Hashable, set[str]] = {}
     for note in chain.from_iterable(by_case):
         places.setdefault(identity(anywhere(note)), set()).add(note.where)
     whole = [[anywhere(one) if len(places[identity(anywhere(one))]) > 1 else one for one in each] for each in by_case]
     return merge(whole, lambda rows: f"row{'s' if len(rows) > 1 else ''} {', '.join(str(row + 1) for row in rows)}")
+
+
+def _is_of_wide_places(note: Note) -> bool:
+    """Return True for the note on places of an element where contacts are wide for the radius of their bodies."""
+    return note.code == SLOPES_LARGE.code and note.values["reason"] == "element"
+
+
+def _at_some_places(note: Note) -> Note:
+    """Return a note on wide contacts without the names of their places."""
+    return SLOPES_LARGE(note.where, **note.values | {"first": "some places", "others": ""})
 
 
 def _rubbing(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dict[str, list[float | str]]:

@@ -201,8 +201,8 @@ CYLINDER_NARROW = define(
     CAUTION,
     "The contact is short for a line contact, which has no ends.",
     "Its length is {ratio:.2g} times its width 2a; a line contact needs five.",
-    "Take the film as an upper bound, as oil leaves at both ends of a roller or bush; less load or a longer one "
-    "reduces the error.",
+    "Take the film as an upper bound, as oil leaves at both ends of a roller or bush; a longer one "
+    "reduces the error, and so does less load of a roller.",
 )
 
 # The mesh
@@ -320,9 +320,9 @@ RESIDUAL_STRESS = define(
     INFO,
     "Stresses below the surface include residual stresses of layers.",
     reasons={
-        "stresses": "The {body} body has {found}, which von Mises stress, tension, yielded volume and criteria of "
-        "stress include. The contact pressure does not depend on it: it causes no traction across the surface or an "
-        "interface.",
+        "stresses": "The {body} body has {found}, which von Mises stress, tension and yielded volume include, and "
+        "the stresses that wear criteria compare. The contact pressure does not depend on it: it causes no traction "
+        "across the surface or an interface.",
         "pressure": Reason(
             "The {body} body has {found}: it causes no traction across the surface or an interface.",
             headline="The residual stress of a layer changes no result of this kind.",
@@ -543,16 +543,16 @@ PARTICLES_OF_BODY = define(
 WEAR_STEPS_LONG = define(
     "wear-steps-long",
     CAUTION,
-    "The wear law's steps are too long, which no error bar counts.",
+    "Each cycle wears too much at once.",
     reasons={
         "overshoot": Reason(
-            "Each cycle removes too much: {ratio:.2g} times the depth per pressure by which the bodies give way from"
-            " cell to cell, where less than 2 is needed; depths, roughness and contact are those of the steps.",
+            "One removes {ratio:.2g} times the depth per pressure by which the bodies give way from cell to"
+            " cell, where less than 2 is needed; depths, roughness and contact are those of the steps.",
             "Take {share:.2g} times the wear.criterion.distance, and raise cycles.count.",
             OUTSIDE_MODEL,
         ),
         "error": Reason(
-            "They leave up to {step:si m} open of a mean depth of {depth:si m}{of}.",
+            "The mean depth of {depth:si m}{of} is uncertain by about {part:%}, beside its error bar.",
             "Take a shorter wear.criterion.distance, and raise cycles.count as much.",
         ),
     },

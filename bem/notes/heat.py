@@ -20,14 +20,14 @@ SURFACE_HOT = define(
             headline="The bulk temperature, {bulk:.0f} °C, is above {limit:.0f} °C.",
         ),
         "transforms": Reason(
-            "It reaches {temperature:.0f} °C: steel transforms at 727 °C, aluminium melts at 660 °C and polymers"
-            " below, so hardness, friction and heat will differ from those given.",
+            "Aluminium melts at 660 °C and polymers below, so hardness, friction and heat will differ from those"
+            " given.",
             "Lower load, speed or friction.",
             headline="The surface reaches {temperature:.0f} °C: steel transforms at 727 °C.",
         ),
         "softens": Reason(
-            "It reaches {temperature:.0f} °C: hardened steels of gears, bearings and rings are tempered at 150 to"
-            " 200 °C and soften above that temperature; most polymers melt below 330 °C.",
+            "Hardened steels of gears, bearings and rings are tempered at 150 to 200 °C"
+            " and soften above that temperature; most polymers melt below 330 °C.",
             "Check the hardness of the bodies at that temperature.",
             headline="The surface reaches {temperature:.0f} °C: hardened steel may soften above 150 °C.",
         ),

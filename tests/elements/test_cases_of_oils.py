@@ -5,6 +5,7 @@ import pytest
 from bem import InputError
 from bem.elements.cases import load_cases, notes_of_cases
 from bem.elements.element import MODELS, element_template
+from bem.notes.checks import SLOPES_LARGE
 from bem.notes.lubrication import LUMPED_HEAT_LIMIT
 
 CAM_OIL = """
@@ -72,3 +73,14 @@ def test_a_note_on_films_of_several_cases_is_one_line():
     slides = LUMPED_HEAT_LIMIT("at 1 of 12 positions", reason="slides", remedy="")
     found = [note.where for note in notes_of_cases([notes[:1], [slides]])]
     assert found == ["row 1, at 2 of 12 positions", "row 2, at 1 of 12 positions"]
+
+
+def test_wide_contacts_of_several_cases_are_one_line():
+    """At other places in each row: the line names none of them."""
+    places = [("contact 3", " and 2 more places"), ("contact 7", "")]
+    notes = [SLOPES_LARGE(first=first, others=others, limit=0.2, reason="element") for first, others in places]
+    (one,) = notes_of_cases([notes[:1], notes[1:]])
+    assert "at some places:" in str(one)
+    assert one.where == ""
+    (same,) = notes_of_cases([notes[:1], notes[:1]])
+    assert "contact 3 and 2 more places" in str(same)

@@ -636,7 +636,7 @@ OUTCOMES = {
     "steps_of_wear_in_oil_that_overshoot": (
         library()["running-in-stribeck"]
         | {"wear": {"criterion": {"kind": "archard", "specific_wear_rate": 1e-16, "distance": 1.0}}},
-        (oil_outcome(1e-18), "removes too much: 44 times"),
+        (oil_outcome(1e-18), "One removes 44 times"),
         oil_outcome(0.0),
     ),
     "rougher_by_its_own_pieces": (
@@ -686,7 +686,7 @@ OUTCOMES = {
         "wear-cylinder-scar",
         (
             Outcome({"step_error_nm": [20.0], "worn_depth_nm": [100.0]}, {}),
-            "up to 20 nm open of a mean depth of 100 nm",
+            "The mean depth of 100 nm is uncertain by about 20 %",
         ),
         Outcome({"step_error_nm": [9.0], "worn_depth_nm": [100.0]}, {}),
     ),

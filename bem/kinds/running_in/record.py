@@ -35,7 +35,6 @@ _STRIP = (
     "(Hertz' contact; on a body that moves its whole track)"
 )
 _RADIUS = "equivalent radius of the particles of the last cycles.settled cycles"
-_FOLLOWS_CELL = f"{pieces.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
 
 
 def _turn(which: str) -> Figure:
@@ -80,7 +79,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
             "nm",
             f"{_RADIUS}, the mean that sizes.report names",
             headline=True,
-            no_bar=_FOLLOWS_CELL,
+            no_bar=pieces.FOLLOWS_CELL,
         ),
     ]
     number_mean_radius: Annotated[
@@ -155,7 +154,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     flash_temperature: Annotated[float | None, _heated(f"surfaces in contact, highest, {RUN_IN}")]
     evaluations_per_cycle: Annotated[float, Figure("", "films per cycle", unjudged=True)]
     volume_mean_radius: Annotated[
-        float, Figure("nm", f"{_RADIUS}, mean by volume: large particles count more", no_bar=_FOLLOWS_CELL)
+        float, Figure("nm", f"{_RADIUS}, mean by volume: large particles count more", no_bar=pieces.FOLLOWS_CELL)
     ]
     scattering_mean_radius: Annotated[
         float, Figure("nm", f"{_RADIUS}, z-average of light scattering (sum R^6 / sum R^5)", no_bar=pieces.FEW_LARGEST)

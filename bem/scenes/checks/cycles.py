@@ -462,7 +462,7 @@ def long_steps_of_wear_by_pressure(facts: Facts, outcome: Outcome) -> Iterator[N
     long = [(step, depth) for step, depth in zip(steps, depths, strict=False) if step > _STEPS * depth > 0]
     if long:
         step, depth = max(long, key=lambda pair: pair[0] / pair[1])
-        yield WEAR_STEPS_LONG(step=1e-9 * step, depth=1e-9 * depth, of=_of(len(long), len(steps)), reason="error")
+        yield WEAR_STEPS_LONG(part=step / depth, depth=1e-9 * depth, of=_of(len(long), len(steps)), reason="error")
 
 
 @outcome_check
