@@ -217,7 +217,7 @@ def _is_of_wide_places(note: Note) -> bool:
 
 def _at_some_places(note: Note) -> Note:
     """Return a note on wide contacts without the names of their places."""
-    return SLOPES_LARGE(note.where, **note.values | {"first": "some places", "others": ""})
+    return SLOPES_LARGE(note.where, **{**note.values, "first": "some places", "others": ""})
 
 
 def _rubbing(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dict[str, list[float | str]]:

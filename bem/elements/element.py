@@ -440,7 +440,7 @@ class Element:
         journal = journal_beside(bush, thickness)
         if journal is None:
             return []
-        return [f"the film of this scene is an upper bound, too thick: minimum film {journal_words(journal)}"]
+        return [f"the film of this scene is an upper bound, too thick; its lower bound is {journal_words(journal)}"]
 
     def shared_friction(self, contact: ElementContact) -> SharedFriction | None:
         """Solve the load sharing of one contact of a bush between its film and a ground shaft of the given roughness.
