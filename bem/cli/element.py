@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -171,15 +172,17 @@ def element(
 
 def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...]) -> None:
     """A line for each case."""
-    from bem.cli._terminal import Terminal, print_written, show_warnings, table
+    from bem.cli._terminal import Terminal, print_text, print_written, show_warnings, table
     from bem.cli.run import tell_compiling
     from bem.elements.answer import PLACES, all_notes, balance_heat
-    from bem.elements.cases import changed_keys, columns, load_cases, notes_of_cases
+    from bem.elements.cases import changed_keys, columns, load_cases, notes_of_cases, power_source
     from bem.elements.element import csv_text, read_element
     from bem.elements.plain_bush import PlainBushModel
     from bem.elements.running import run_all
     from bem.errors import InputError
     from bem.notes import Level
+    from bem.notes.elements import BUSH_TOUCHES, SURFACES_TOUCH
+    from bem.notes.note import has_code
     from bem.results.atomic import write_text
 
     if any(others):
@@ -204,6 +207,8 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
         bush = isinstance(one.model, PlainBushModel)
         told.append([note for note in every if bush or note.level is not Level.INFO])
     show_warnings(notes_of_cases(told))
+    if has_code(chain.from_iterable(told), SURFACES_TOUCH, BUSH_TOUCHES):
+        print_text("For the scene of a row put its keys in FILE.")
     unnamed = [f"{read_element(file)['name']}-{number}" for number in range(1, len(cases) + 1)]
     named = found["case"] != unnamed
     hidden = {*([] if named else ["case"]), *([*_BY_FORMULA, "thinnest_by_formula"] if runs else [])}
@@ -214,7 +219,9 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
         tuple(one if isinstance(one, str) else _spelled(name, one) for name, one in zip(shown, row, strict=True))
         for row in zip(*(_life_words(found, name) for name in shown), strict=True)
     ]
-    head = tuple(_CASE_HEADS.get(name, name.partition(" [")[0].replace("_", " ")) for name in shown)
+    source = power_source(cases)
+    heads = _CASE_HEADS | ({"friction_power [W]": f"friction power ({source})"} if source else {})
+    head = tuple(heads.get(name, name.partition(" [")[0].replace("_", " ")) for name in shown)
     leading = len(changed) + named
     table(head, lines, right=range(leading, len(shown)), leading=leading)
     if out is not None:

@@ -26,7 +26,7 @@ from bem.elements.bearing_life import bearing_life, life_of_film
 from bem.elements.bush_answer import JOURNAL, bush_temperature, friction_power_of, journal_of, wear_life
 from bem.elements.element import Element, load_element, read_element
 from bem.elements.gear_pair import GearModel
-from bem.elements.gear_scuffing import scuffing_of
+from bem.elements.gear_scuffing import friction_of_gear_tests, scuffing_of
 from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rating_life import hours
 from bem.elements.rolling_bearing import BearingModel
@@ -138,7 +138,9 @@ def _columns_of(table: Mapping[str, Any], rows: str | Path) -> dict[str, list[st
     try:
         return columns_of(str(rows), known, (), 1)
     except PydanticCustomError as error:
-        raise InputError(error.message()) from None
+        keys = "keys of the element's file, or name"
+        said = error.message().replace(", ".join(known), keys)
+        raise InputError(said.replace(f"with columns {keys}", f"whose columns are {keys}")) from None
 
 
 def columns(
@@ -218,6 +220,21 @@ def _is_of_wide_places(note: Note) -> bool:
 def _at_some_places(note: Note) -> Note:
     """Return a note on wide contacts without the names of their places."""
     return SLOPES_LARGE(note.where, **{**note.values, "first": "some places", "others": ""})
+
+
+def power_source(cases: Sequence[Element]) -> str:
+    """Return in words what the friction power of cases is of; empty for bushes and where cases differ."""
+    found = set()
+    for one in cases:
+        if isinstance(one.model, PlainBushModel):
+            return ""
+        if isinstance(one.model, GearModel) and friction_of_gear_tests(one) is not None:
+            found.add("Schlenk's fit")
+        elif isinstance(one.model, BearingModel) or one.model.rms_roughness is None:
+            found.add("oil films")
+        else:
+            found.add("with asperities")
+    return found.pop() if len(found) == 1 else ""
 
 
 def _rubbing(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dict[str, list[float | str]]:

@@ -5,6 +5,7 @@ import pytest
 from bem import InputError
 from bem.elements.cases import load_cases, notes_of_cases
 from bem.elements.element import MODELS, element_template
+from bem.lubrication.oils.catalogue import find_oil
 from bem.notes.checks import SLOPES_LARGE
 from bem.notes.lubrication import LUMPED_HEAT_LIMIT
 
@@ -56,6 +57,17 @@ def test_keys_of_tables_are_columns(tmp_path):
     rows.write_text("oil.bas\npao\n")
     with pytest.raises(InputError, match=r'did you mean "oil\.base"'):
         load_cases(file, rows)
+    with pytest.raises(InputError) as refused:
+        load_cases(file, tmp_path / "missing.csv")
+    (message,) = refused.value.messages
+    assert "cannot be read" in message
+    assert message.endswith("a text file whose columns are keys of the element's file, or name")
+
+
+def test_a_grade_with_a_digit_too_many_proposes_the_grade_without_it():
+    for number, meant in ((4600, 460), (50, 46), (20, 22)):
+        with pytest.raises(InputError, match=f'did you mean "ISO VG {meant}"'):
+            find_oil(f"ISO VG {number}")
 
 
 def test_a_note_on_films_of_several_cases_is_one_line():

@@ -195,6 +195,8 @@ def _iso_grade(name: str, number: int, *, viscosity_index: float | None, base: s
     grade, base = _data()["grades"]["iso"], base or "mineral"
     if number not in grade["numbers"]:
         near = min(grade["numbers"], key=lambda one: abs(one - number))
+        if number > max(grade["numbers"]) and number % 10 == 0 and number // 10 in grade["numbers"]:
+            near = number // 10  # a digit too many
         raise InputError(
             f'oil "{name[:60]}": no such grade - did you mean "ISO VG {near}"?; allowed: '
             + ", ".join(map(str, grade["numbers"]))
