@@ -55,8 +55,10 @@ ground and honed surfaces (20 % estimated against 59 % at 0.80, 36 against 84 % 
 (26 % against 20 % at 0.71)."""
 _NEW_SURFACES = (
     ". The estimate is a fit for ground, run-in surfaces: asperities of new ones with random roughness, as in scenes "
-    "of kind friction, carry far more, and friction lies between both"
+    "of kind friction, carry {more}, and friction lies between both"
 )
+_NEARLY_ALL = 0.9
+"""Estimated load share of asperities above which new surfaces, which carry more, are said to carry nearly all."""
 _BALANCE_ROUNDS, _BALANCE_STEP, _HALVINGS = 20, 0.2, 6
 """Rounds of a heat balance at most, the difference of temperature [K] at which it is found, and how often a step is
 halved that leaves the temperatures of the oil."""
@@ -433,7 +435,8 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
     if element.bulk_estimated:
         cool = f"; about {_ratio_at_oil(element, thinnest):.3g} if the flanks were only as warm as the oil"
     least = _LEAST_RATIO_SUPERFINISHED if FINISHES.get(element.model.element) == "superfinished" else _LEAST_RATIO
-    rougher = _NEW_SURFACES if touching and ratio < least and thinnest.mixed_friction is None else ""
+    more = "nearly all of the load" if share > _NEARLY_ALL else "far more"
+    rougher = _NEW_SURFACES.format(more=more) if touching and ratio < least and thinnest.mixed_friction is None else ""
     return f"{ratio:.3g} ({regime}{touching}), {film}{cool}{_unsolved_words(element)}{rougher}"
 
 
@@ -582,6 +585,8 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
     if not hot:
         return f"{said}; flash temperature not known: thermal constants of a body are missing"
     hottest = max(hot, key=lambda one: one.flash or 0.0)
+    against = any(abs(one.slide_roll_ratio) > 2 for one in element.found.contacts)
+    unsolved = ", of the solved places; not known where the surfaces run against each other" if against else ""
     if not hottest.flash:
         warmest = max((one.surface for one in runs if one.surface is not None), default=math.nan)
         rise = warmest - (model.film_temperature or math.nan)
@@ -589,7 +594,7 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
         return f"{said}; {warmer}, as the surfaces roll without sliding"
     return (
         f"{said}; highest flash temperature {hottest.flash:.3g} K at {place_words(element, hottest.contact)} "
-        "(Blok, with the film's friction)"
+        f"(Blok, with the film's friction){unsolved}"
     )
 
 

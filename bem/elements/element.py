@@ -346,7 +346,9 @@ class Element:
         ratios = self.columns().get("film_over_roughness", [])
         touching = sum(ratio < 1 for ratio in ratios)
         if touching and not isinstance(self.model, PlainBushModel):  # whose solved film tells it
-            notes.append(SURFACES_TOUCH(touching=touching, places=len(ratios)))
+            rolls = not any(one.slide_roll_ratio for one in self.found.contacts)
+            reason = "rolls" if rolls else "slides"
+            notes.append(SURFACES_TOUCH(touching=touching, places=len(ratios), reason=reason))
         return tuple(notes)
 
     def _unused_oil_temperature(self) -> Note | None:
@@ -382,7 +384,8 @@ class Element:
             return None
         ratio, onset, one = max(found, key=lambda each: each[0])
         everywhere = len(self.found.contacts)
-        return YIELDS(places=len(found), all=everywhere, ratio=ratio, onset=onset, place=one.name, reason="element")
+        reason = "element of one material" if self.bodies[0] == self.bodies[1] else "element"
+        return YIELDS(places=len(found), all=everywhere, ratio=ratio, onset=onset, place=one.name, reason=reason)
 
     @cached_property
     def bodies(self) -> tuple[Material, Material]:

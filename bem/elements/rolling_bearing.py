@@ -322,7 +322,7 @@ def _load_sharing(model: BearingModel, shared: Sequence[float], pressed_out: flo
         least, most = (math.degrees(float(one)) for one in (carrying.min(), carrying.max()))
         said.append(
             f"Axial load {si(model.axial_load, 'N', 4)}: contact angles {least:.3g} to {most:.3g} deg, the inner ring "
-            f"{1e6 * model.ball_loads.axial_shift:.3g} um along the axis; spin of the balls is left out."
+            f"moves {1e6 * model.ball_loads.axial_shift:.3g} um along the axis; spin of the balls is left out."
         )
     if model.slices is not None:
         critical = int(model.slices.loads.max(axis=1).argmax())

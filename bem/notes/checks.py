@@ -87,8 +87,8 @@ SLOPES_LARGE = define(
             "Expect errors of several per cent, or use finite elements with large deformations.",
         ),
         "element": Reason(
-            "It reaches over {limit:g} of a body's radius at {first}{others}: the gap of conforming bodies is up to"
-            " 7 % and more over the parabola of Hertz and of scenes.",
+            "It reaches over {limit:g} of a body's radius at {first}{others}: the gap of conforming bodies is 7 %"
+            " or more over the parabola of Hertz and of scenes.",
             "Take the pressures there as estimates.",
         ),
         "worn": Reason(
@@ -163,6 +163,11 @@ YIELDS = define(
             "It does at {places} of {all} places: Hertz' pressure is {ratio:.3g} times that at which yield begins, "
             "{onset:si Pa}, at {place}; contacts here and in scenes are elastic.",
             headline="The softer body yields below its surface at {place}.",
+        ),
+        "element of one material": Reason(
+            "It does at {places} of {all} places: Hertz' pressure is {ratio:.3g} times that at which yield begins, "
+            "{onset:si Pa}, at {place}; contacts here and in scenes are elastic.",
+            headline="The material yields below its surface at {place}.",
         ),
         "solved": "Elastic von Mises stresses reach {stress:si Pa} and are too high in {volume:.3g} um^3.",
         "layers": Reason(

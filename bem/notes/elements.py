@@ -73,9 +73,18 @@ SURFACES_TOUCH = define(
     "element-surfaces-touch",
     CAUTION,
     "Surfaces touch: the film is thinner than the roughness (lambda below 1).",
-    "That is so at {touching} of {places} places. The answer estimates what asperities carry and rub; the films "
-    "themselves are smooth.",
+    "",
     "Mixed friction of one contact: `bem element FILE --scene mixed.toml --kind friction` writes its scene.",
+    reasons={
+        "slides": "That is so at {touching} of {places} places. The answer estimates what asperities carry and rub; "
+        "the films themselves are smooth.",
+        "rolls": Reason(
+            "That is so at {touching} of {places} places. The answer estimates what asperities carry, which do not rub "
+            "in pure rolling; the films themselves are smooth.",
+            "Mixed friction of one contact: `bem element FILE --scene mixed.toml --kind friction` writes its scene; "
+            "set speeds.slide_roll_ratio there, as asperities do not rub in pure rolling.",
+        ),
+    },
 )
 CONTACT_LOST = define(
     "contact-lost",
@@ -228,8 +237,7 @@ BUSH_TOUCHES = define(
     CAUTION,
     "Surfaces touch: the film is thinner than the roughness (lambda below 1).",
     "",
-    "For your measured surfaces run the scene that `bem element FILE --scene mixed.toml --kind friction` writes; for a "
-    "row of --cases put its keys in FILE.",
+    "For your measured surfaces run the scene that `bem element FILE --scene mixed.toml --kind friction` writes.",
     reasons={
         "solved": "Asperities carry {share:.0%} of the load, for a random ground shaft with the roughness given.",
         "estimated": "By an estimate asperities carry {share:.0%} of the load.",

@@ -309,12 +309,12 @@ LUMPED_HEAT_LIMIT = define(
             "beta its relative fall per kelvin, u entrainment speed, k thermal conductivity of the oil); above "
             "{limit:g} most films were too thin, by up to a third, some 2 % too thick, and friction was 10 to 60 % "
             "off.",
-            headline="Quick heat (lumped) errs here: films by up to a third.",
+            headline="Quick heat (lumped) errs here: most films are too thin, by up to a third.",
         ),
         "slides": Reason(
             "The slower surface warms the inlet: at a slide-to-roll ratio of 2 flooded films were 1.2 to 2.8 times as "
-            "thick as with full heat.",
-            headline="Quick heat (lumped) errs here: films up to 2.8 times too thick.",
+            "thick as with full heat, at 1 up to 1.17 times.",
+            headline="Quick heat (lumped) errs here: films too thick, 1.2 to 2.8 times at slide-to-roll 2, less below.",
         ),
         "spreads": Reason(
             "Heat that spreads across the flow is left out: the temperature rise was a tenth to a quarter too large "
