@@ -189,7 +189,7 @@ def test_prefixes(value, unit, expected):
         ("friction", [0.1, 0.2], ("friction coefficient", "0.1, 0.2")),
         ("speed_m_s", [0.001, 0.3], ("speed", "0.001, 0.3 m/s")),
         ("status", "converged", ("status", "converged")),
-        ("residual", None, ("residual", "-")),
+        ("residual", None, ("solver residual (relative)", "-")),
         ("max_von_mises_Pa", 0.0, ("max von Mises", "0 Pa")),
     ],
 )
