@@ -477,7 +477,7 @@ class Element:
 
     @property
     def _layered(self) -> bool:
-        """Whether body 2 is a layer: a bush with a wall."""
+        """Return True if body 2 is a layer: a bush with a wall."""
         return isinstance(self.model, PlainBushModel) and self.model.wall is not None
 
     @property

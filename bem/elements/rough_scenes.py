@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from bem.elements.contact import ElementContact
+from bem.elements.plain_bush import PlainBushModel
 from bem.errors import InputError
 from bem.grid import Grid
 from bem.materials import Body, softer_hardness
@@ -25,7 +26,6 @@ from bem.wear.criterion.local import cell_to_cell_compliance
 
 if TYPE_CHECKING:
     from bem.elements.model import ElementModel
-    from bem.elements.plain_bush import PlainBushModel
 
 
 _LINE_HALF_WIDTHS = 4.0
@@ -101,8 +101,8 @@ def finish_lengths(model: ElementModel) -> tuple[float, float] | None:
     """Return the correlation lengths along x and y [m] of the surfaces of scenes; None without roughness."""
     if model.rms_roughness is None:
         return None
-    if model.element not in FINISHES:
-        return _bush_lengths(model)  # type: ignore[arg-type]
+    if isinstance(model, PlainBushModel):
+        return _bush_lengths(model)
     return _lengths_of(FINISHES[model.element], model.correlation_length)
 
 
@@ -184,8 +184,8 @@ def rough_bodies(model: ElementModel, bodies: Mapping[str, Mapping[str, Any]]) -
     found = {name: dict(body) for name, body in bodies.items()}
     if model.rms_roughness is None:
         return found
-    if model.element not in FINISHES:
-        found["lower"]["surface"] = ground_shaft(model)  # type: ignore[arg-type]
+    if isinstance(model, PlainBushModel):
+        found["lower"]["surface"] = ground_shaft(model)
         return found
     surface = _finish(model, model.rms_roughness / math.sqrt(2))
     return {name: {**body, "surface": dict(surface)} for name, body in found.items()}

@@ -47,7 +47,7 @@ class SelfAffineFit:
 
     @property
     def is_self_affine(self) -> bool:
-        """Whether the spectrum falls by a power from -2 to -4: a Hurst exponent between 0 and 1.
+        """Return True if the spectrum falls by a power from -2 to -4: a Hurst exponent between 0 and 1.
 
         Gaussian autocorrelations and filters leave steeper spectra, which are no power law, white noise a flat one.
         """

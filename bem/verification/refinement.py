@@ -80,7 +80,7 @@ def _disc(name: str) -> list[Curve]:
 
 
 def _on_centres(points: FloatArray, step: float) -> NDArray[np.bool_]:
-    """Whether points (n, 2) are centres of cells of that side, of a grid with a centre at the origin."""
+    """Return where points (n, 2) are centres of cells of a given side, on a grid with a centre at the origin."""
     return np.all(np.abs(points / step - np.rint(points / step)) < 1e-6, axis=1)
 
 
