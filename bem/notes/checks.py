@@ -159,6 +159,11 @@ YIELDS = define(
             "Hertz' pressure {pressure:si Pa} is {ratio:.3g} times that at which it begins to yield, {onset:si Pa}: "
             "elastic stresses there are too high, and the first loadings leave residual stresses."
         ),
+        "hertz of one material": Reason(
+            "Hertz' pressure {pressure:si Pa} is {ratio:.3g} times that at which it begins to yield, {onset:si Pa}: "
+            "elastic stresses there are too high, and the first loadings leave residual stresses.",
+            headline="The material yields below its surface.",
+        ),
         "element": Reason(
             "It does at {places} of {all} places: Hertz' pressure is {ratio:.3g} times that at which yield begins, "
             "{onset:si Pa}, at {place}; contacts here and in scenes are elastic.",

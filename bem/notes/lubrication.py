@@ -314,7 +314,7 @@ LUMPED_HEAT_LIMIT = define(
         "slides": Reason(
             "The slower surface warms the inlet: at a slide-to-roll ratio of 2 flooded films were 1.2 to 2.8 times as "
             "thick as with full heat, at 1 up to 1.17 times.",
-            headline="Quick heat (lumped) errs here: films too thick, 1.2 to 2.8 times at slide-to-roll 2, less below.",
+            headline="Quick heat (lumped) gives too thick a film at a slide-to-roll ratio of {slide:.2g}.",
         ),
         "spreads": Reason(
             "Heat that spreads across the flow is left out: the temperature rise was a tenth to a quarter too large "

@@ -81,12 +81,13 @@ def heat_limits(inlet: InletHeating, speeds: tuple[float, float], rise: float, r
     """Return notes on the limits of lumped heat, from inlet heating, speeds of both walls [m/s] and rise of the mean
     temperature of the oil [K]; `remedy` says in a sentence what to do in this film."""
     first, second = speeds
-    slides = abs(first - second) > LARGEST_SLIDE * 0.5 * abs(first + second) and rise > LARGEST_RISE
+    slide, mean = abs(first - second), 0.5 * abs(first + second)
     notes = []
     if inlet.extrapolated:
         notes.append(LUMPED_HEAT_LIMIT(remedy=remedy, reason="formula"))
     if inlet.loading > LARGEST_LOADING:
         notes.append(LUMPED_HEAT_LIMIT(loading=inlet.loading, limit=LARGEST_LOADING, remedy=remedy, reason="fast"))
-    if slides:
-        notes.append(LUMPED_HEAT_LIMIT(remedy=remedy, reason="slides"))
+    if slide > LARGEST_SLIDE * mean and rise > LARGEST_RISE:
+        ratio = slide / mean if mean else np.inf
+        notes.append(LUMPED_HEAT_LIMIT(slide=ratio, remedy=remedy, reason="slides"))
     return tuple(notes)

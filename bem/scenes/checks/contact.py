@@ -73,7 +73,9 @@ def yield_below_the_surface(facts: Facts) -> Iterator[Note]:
         ratio, case = found
         assert case.smooth is not None
         pressure = case.smooth.maximum_pressure
-        yield YIELDS(case.label, pressure=pressure, ratio=ratio, onset=pressure / ratio, reason="hertz")
+        same = case.upper is not None and case.upper.material == case.lower.material
+        reason = "hertz of one material" if same else "hertz"
+        yield YIELDS(case.label, pressure=pressure, ratio=ratio, onset=pressure / ratio, reason=reason)
 
 
 def _elastic(facts: Facts) -> Iterator[Case]:
