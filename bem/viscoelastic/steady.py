@@ -7,8 +7,8 @@ the gap gives an operator, and `bem.contact` solves it as such.
 
 1. Doubly periodic grids: the filter multiplies the spectrum by 1 / (1 + i kx l), which is exact for the grid's waves.
 2. Other grids: the pressure is linear between cells, so that the filter is a recursion over whole cells, applied to the
-   influence coefficients. Beyond the grid these are those of a point (free) or of a line load (y periodic) and are
-   integrated along the rest of the memory, however long.
+   influence coefficients. Beyond the grid these are those of a point (free) or of a line load and its waves along y (y
+   periodic) and are integrated along the rest of the memory, however long.
 3. Where the retarded part is much larger than the elastic one, the sets of cells in contact swing and the solver may
    stall. Then the proximal point method (Rockafellar 1976) follows: contacts of the operator with a symmetric part
    added that bounds the skew one, the addition being taken off by the pressure before. It converges for any operator
@@ -52,12 +52,10 @@ from bem.representation import readable
 from bem.transforms import kernel_spectrum, padded_shape
 from bem.viscoelastic.compliance import DelayedTerm, pair_compliance, step_weights
 
-_REACH = 3.0
-"""Length of the coefficients along x, in periods along y, beyond which a cell acts as a line load: exp(-6 pi)."""
-_LONGEST = 4096
-"""Most cells of the coefficients along x."""
 _NODES = 128
 """Gauss points over the memory beyond the coefficients."""
+_FADED, _WAVES = 36.0, 32
+"""Waves along the period beyond the coefficients: up to exp(-_FADED), and at most _WAVES for each cell."""
 _PROXIMAL_STEPS = 400
 _CLOSE = 1e-3
 """Relative change of the pressure in a proximal step below which the whole operator is tried again."""
@@ -187,59 +185,69 @@ def delayed_coefficients(
         ahead = np.fft.irfft(np.fft.rfft(table, axis=0) * symbols[:, :, None], nx, axis=1)
         behind = np.roll(ahead[:, ::-1], 1, axis=1)
     else:
-        table, far, start = _long_coefficients(grid, body, sizes)
-        count = len(table)
+        table = surface_coefficients(grid, body, Load.NORMAL)
         # from the farthest offset ahead to the farthest behind, memory of what comes from ahead
         ahead, behind = (np.empty((len(sizes), nx, grid.shape[1])) for _ in range(2))
-        memory, last = start, far
-        for offset in range(count - 1, -nx, -1):
+        memory, last = _memory_beyond(grid, table[-1], body, sizes), table[-1]
+        for offset in range(nx - 1, -nx, -1):
             here = table[abs(offset)]
-            if offset < count - 1:
+            if offset < nx - 1:
                 memory = kept[:, None] * memory + after[:, None] * here + before[:, None] * last
             last = here
-            if 0 <= offset < nx:
+            if offset >= 0:
                 ahead[:, offset] = memory
             if offset <= 0:
                 behind[:, -offset] = memory
-    even = 0.5 * np.tensordot(amounts, ahead + behind, axes=1) + (own + still) * table[:nx]
+    even = 0.5 * np.tensordot(amounts, ahead + behind, axes=1) + (own + still) * table
     odd = -0.5 * np.tensordot(amounts * signs, ahead - behind, axes=1)
     return np.stack([even, odd])
 
 
-def _long_coefficients(grid: Grid, body: Body, sizes: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return coefficients ahead of a cell far along x, the last of them, and their memory from there on.
+def _memory_beyond(grid: Grid, far: FloatArray, body: Body, sizes: FloatArray) -> FloatArray:
+    """Return the memory of what lies beyond the last coefficients ahead of a cell, (terms, ny) [m/Pa].
 
-    sizes : (terms, 1), lengths of memory [m]. Returns (n, ny), (ny,) and (terms, ny) [m/Pa]. A grid with a period along
-    y is lengthened to `_REACH` periods, at most to `_LONGEST` cells; beyond, waves along y are left out.
+    Beyond, a cell acts as a point on a free grid. On one with a period along y it acts as a line load and its waves
+    along y: the mean along y falls by the logarithm, wave n as K0(2 pi n x / period), the modified Bessel function.
+    One cell along the period and many give the same mean.
+
+    grid : free along x. far : (ny,), coefficients at the largest offset along x [m/Pa]. sizes : (terms, 1), lengths of
+    memory [m].
     """
     (nx, ny), (dx, dy) = grid.shape, grid.spacing
-    count = nx
-    if grid.periodic[1] and ny > 1:
-        count = max(nx, min(math.ceil(_REACH * grid.lengths[1] / dx), _LONGEST))
-    long = Grid((count, ny), grid.spacing, periodic=grid.periodic)
-    table = surface_coefficients(long, body, Load.NORMAL)
-    if grid.periodic[1] and count > nx:
-        # the datum of a line load is the length of the grid: that of the grid itself
-        datum = surface_coefficients(Grid((nx, ny), grid.spacing, periodic=grid.periodic), body, Load.NORMAL)
-        table = table + (datum[0, 0] - table[0, 0])
-    far, distance = table[-1], (count - 1) * dx
-    if grid.periodic[1]:
-        from scipy.special import exp1
+    distance = (nx - 1) * dx
+    if not grid.periodic[1]:
+        s, measure = _nodes_beyond(distance, sizes)
+        y = np.arange(ny) * dy
+        fallen = np.hypot(distance, y) / np.hypot(distance + s[:, :, None], y)
+        return np.asarray(far * np.einsum("tn,tny->ty", measure, fallen))
+    from scipy.special import exp1, k0e
 
-        ratio = distance / sizes
-        short = ratio > 50
-        kept = np.where(short, 1.0, ratio)
-        fallen = np.where(short, 1 / ratio - 1 / ratio**2 + 2 / ratio**3, np.exp(kept) * exp1(kept))
-        slope = 2 * dx / (np.pi * body.material.plane_strain_modulus)
-        return table, far, far - slope * fallen
+    ratio = distance / sizes
+    short = ratio > 50
+    kept = np.where(short, 1.0, ratio)
+    fallen = np.where(short, 1 / ratio - 1 / ratio**2 + 2 / ratio**3, np.exp(kept) * exp1(kept))
+    # displacement of a line load per length along y of one: the force of a cell over the period, under unit pressure
+    amount = 2 * dx / ny / (np.pi * body.material.plane_strain_modulus)
+    memory = far.mean() - amount * fallen + np.zeros(ny)
+    highest = min(math.ceil(_FADED * grid.lengths[1] / (2 * np.pi * distance)), _WAVES * ny)
+    for n in range(1, highest + 1):
+        if n % ny:  # the others have no mean over a cell
+            k = 2 * np.pi * n / grid.lengths[1]
+            s, measure = _nodes_beyond(distance, sizes, k)
+            wave = 2 * amount * np.sinc(n / ny) * np.cos(2 * np.pi * n * np.arange(ny) / ny)
+            memory += np.sum(measure * k0e(k * (distance + s)) * np.exp(-k * (distance + s)), axis=1)[:, None] * wave
+    return np.asarray(memory)
+
+
+def _nodes_beyond(distance: float, sizes: FloatArray, decay: float = 0.0) -> tuple[FloatArray, FloatArray]:
+    """Return Gauss nodes s and weights of integrals of exp(-s / l) / l over s > 0, (terms, nodes).
+
+    The integrand varies on the scale of `distance` + s [m] and falls at least as fast as exp(-`decay` s).
+    """
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
-    top = np.log1p(40 * sizes / distance)  # of the logarithm of 1 + s / distance
-    logarithm = 0.5 * top * (nodes + 1)
-    s = distance * np.expm1(logarithm)
-    measure = 0.5 * top * weights * (distance + s) * np.exp(-s / sizes) / sizes
-    y = np.arange(ny) * dy
-    fallen = np.hypot(distance, y) / np.hypot(distance + s[:, :, None], y)
-    return table, far, far * np.einsum("tn,tny->ty", measure, fallen)
+    top = np.log1p(40 / (1 / sizes + decay) / distance)  # of the logarithm of 1 + s / distance
+    s = distance * np.expm1(0.5 * top * (nodes + 1))
+    return s, 0.5 * top * weights * (distance + s) * np.exp(-s / sizes) / sizes
 
 
 def solve_steady_motion(

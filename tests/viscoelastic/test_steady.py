@@ -13,6 +13,7 @@ from bem.materials import Body
 from bem.reference_solutions.sliding_cylinder import SlidingCylinder
 from bem.relaxation import PronySeries
 from bem.viscoelastic import follow_times, solve_steady_motion
+from bem.viscoelastic.steady import delayed_coefficients
 
 SHARE = 0.8
 RUBBER = Body(Material("rubber", youngs_modulus=1.0, poissons_ratio=0.3, relaxation=PronySeries.zener(SHARE, 1.0)))
@@ -86,6 +87,66 @@ def test_motion_the_other_way_is_the_mirror_image():
     one, other = line(128, HALF), line(128, HALF, speeds=(HALF, 0.0))
     assert other.contact.pressure == pytest.approx(one.contact.pressure[::-1], abs=1e-5 * one.contact.maximum_pressure)
     assert other.friction == pytest.approx(one.friction, rel=1e-6)
+
+
+@pytest.mark.parametrize("memory", [0.1, 1.0, 1e3])
+@pytest.mark.parametrize("across", [2, 5, 64])
+def test_line_loads_have_one_memory_whatever_the_cells_along_the_period(memory, across):
+    """A pressure that is uniform along the period gives the displacement of one cell over the whole period."""
+    cells, (length, period) = 48, (1.0, 0.4)
+    tables = []
+    for number in (1, across):
+        grid = Grid((cells, number), (length / cells, period / number), periodic=(False, True))
+        table = delayed_coefficients(grid, RUBBER, 0.0, (1.0,), (memory * length,))
+        tables.append(table.sum(axis=2))
+    assert tables[1] == pytest.approx(tables[0], abs=1e-12 * np.abs(tables[0]).max())
+
+
+@pytest.mark.parametrize("memory", [0.1, 1.0, 1e3])
+def test_a_cell_is_the_sum_of_three_narrower_ones(memory):
+    """On a grid of a quarter of the period along x, beyond which most waves along y have not faded."""
+    cells, across = 24, 8
+    coarse, fine = (
+        delayed_coefficients(
+            Grid((cells, number), (0.25 / cells, 1 / number), periodic=(False, True)), RUBBER, 0.0, (1.0,), (memory,)
+        )
+        for number in (across, 3 * across)
+    )
+    middle = 3 * np.arange(across)
+    sums = fine[:, :, middle] + fine[:, :, middle - 1] + fine[:, :, (middle + 1) % (3 * across)]
+    assert coarse == pytest.approx(sums, abs=1e-11 * np.abs(coarse[0]).max())
+
+
+@pytest.mark.parametrize("memory", [0.01, 0.3, 3.0])
+def test_memory_of_a_period_is_that_of_its_images_on_a_free_grid(memory):
+    """Even part up to its datum, and odd part; a hundred images leave (memory / 100 periods)^2 of the sum."""
+    cells, across, images = 32, 32, 100
+    sides = (0.25 / cells, 1 / across)
+    period = delayed_coefficients(Grid((cells, across), sides, periodic=(False, True)), RUBBER, 0.0, (1.0,), (memory,))
+    free = delayed_coefficients(Grid((cells, across * (images + 1)), sides), RUBBER, 0.0, (1.0,), (memory,))
+    total = sum(free[:, :, np.abs(np.arange(across) + image * across)] for image in range(-images, images + 1))
+    even, odd = total[0] - total[0, 0, 0], total[1]
+    assert even == pytest.approx(period[0] - period[0, 0, 0], abs=1e-3 * np.ptp(period[0]))
+    assert odd == pytest.approx(period[1], abs=1e-3 * np.abs(odd).max())
+
+
+@pytest.mark.parametrize("speeds", [(-1.0, 0.0), (-1.0, -1.0)])
+@pytest.mark.parametrize("speed", [0.03, 1.0, 30.0])
+def test_cells_along_the_period_do_not_change_a_line_contact(speed, speeds):
+    """In sliding and in rolling, over memories from much shorter than the grid to 30 times as long."""
+    found = []
+    for across in (1, 4):
+        grid = Grid((64, across), (5 * HALF / 64, 1.0 / across), periodic=(False, True))
+        gap = np.repeat((grid.x**2 / 2)[:, None], across, axis=1)
+        moving = tuple(HALF * speed * one for one in speeds)
+        operator = displacement_operator(grid, (RUBBER, RUBBER))
+        found.append(solve_steady_motion(gap, operator, moving, load=LOAD / 2, tolerance=1e-10))
+    one, many = found
+    assert many.contact.pressure == pytest.approx(
+        np.repeat(one.contact.pressure, 4, axis=1), abs=1e-7 * one.contact.maximum_pressure
+    )
+    assert many.friction == pytest.approx(one.friction, rel=1e-7)
+    assert many.contact.approach == pytest.approx(one.contact.approach, rel=1e-8)
 
 
 @pytest.mark.parametrize("periodic", [(False, False), (True, False), (False, True), (True, True)])
