@@ -136,10 +136,12 @@ RANGES: tuple[UsualRange, ...] = (
     ),
     UsualRange(
         "length of a body", "m", 1e-6, 5.0,
-        ("width", "bore", "outside", "diameter", "pitch_diameter", "face_width", "module", "lift", "stroke", "rod",
+        ("width", "bore", "outside", "diameter", "pitch_diameter", "face_width", "lift", "stroke", "rod",
          "length", "tip_diameters", "shaft_diameter", "wall"),
         _LENGTHS,
     ),
+    UsualRange("module", "m", 5e-5, 0.1, ("module",), _LENGTHS, "gears of watches have 0.1 mm, of mills 30 mm"),
+    UsualRange("mass", "kg", 1e-5, 50.0, ("mass",), (("g", 1e-3),), "tappets and valves have 20 to 500 g"),
     UsualRange(
         "clearance", "m", 1e-7, 3e-3, ("clearance",), (("um", 1e-6), ("mm", 1e-3)),
         "rolling bearings have 5 to 200 um, polymer bushes up to 1 mm",
@@ -183,7 +185,7 @@ RANGES: tuple[UsualRange, ...] = (
     ),
     UsualRange(
         "temperature", "K", 233.15, 573.15,
-        ("temperature", "temperatures", "lower_bulk", "upper_bulk", "bulk"), (),
+        ("temperature", "temperatures", "lower_bulk", "upper_bulk", "bulk", "bulk_temperature", "ambient"), (),
         "oils are liquid and additives alive from -40 to 300 degrees Celsius",
     ),
     UsualRange(

@@ -82,7 +82,7 @@ def element(
     from bem.cli._terminal import print_text, print_written, show_warnings
     from bem.cli.run import tell_compiling
     from bem.elements.answer import all_notes, balance_heat, contact_words, place_words, table_columns
-    from bem.elements.element import LIFE, MIXED, load_element
+    from bem.elements.element import LIFE, MIXED, load_element, unusual_values_named
     from bem.elements.figure import draw_element
     from bem.elements.plain_bush import PlainBushModel
     from bem.elements.scene_text import element_scene_text
@@ -108,7 +108,8 @@ def element(
         return
     loaded = load_element(file)
     tell_compiling(loaded)
-    found = balance_heat(loaded)
+    with unusual_values_named(loaded):
+        found = balance_heat(loaded)
     whole = at == "path"
     chosen = found.critical() if whole or not at else _chosen(found, at)
     if not at and scene is not None:
@@ -137,7 +138,8 @@ def element(
     lubricated = found.model.oil is not None
     bush = isinstance(found.model, PlainBushModel)  # its one film gives its friction and temperature
     if running or (lubricated and made is None and (bush or not contacts)):
-        runs = _solve(found, whole=running or table is not None)
+        with unusual_values_named(found):
+            runs = _solve(found, whole=running or table is not None)
     if contacts:
         _show(found, chosen, runs)
     elif made is None or running:

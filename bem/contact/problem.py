@@ -62,7 +62,7 @@ class Request:
             most = self.cap * self.operator.grid.area
             if self.load > most * (1 + 1e-12):
                 raise InfeasibleError(
-                    f"solve_contact: load {self.load!r} N is more than hardness x area = {most!r} N can carry; "
+                    f"solve_contact: load {self.load:.6g} N is more than hardness x area = {most:.6g} N can carry; "
                     "lower the load or raise the hardness"
                 )
         beyond = self.approach is not None and self.approach > mean + slack

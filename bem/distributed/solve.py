@@ -208,7 +208,8 @@ def _refuse_infeasible(
     """Refuse a load above hardness x area, and an approach of elastic bodies beyond full contact on a period."""
     if load is not None and load > cap * grid.area * (1 + 1e-14):
         raise InfeasibleError(
-            f"load {load!r} N is above hardness x area = {cap * grid.area!r} N; allowed: a lower load or a larger grid"
+            f"load {load:.6g} N is above hardness x area = {cap * grid.area:.6g} N; allowed: a lower load or a "
+            "larger grid"
         )
     if approach is not None and all(grid.periodic) and math.isinf(cap) and approach > mean + slack:
         raise InfeasibleError(

@@ -280,6 +280,8 @@ def answer(element: Element, solved: Sequence[Running]) -> Rows:
     if isinstance(element.model, PlainBushModel):
         return _bush(element, element.model, runs, solved)
     rows: list[tuple[str, str]] = [("critical contact", contact_words(element, element.critical()))]
+    if element.model.oil is None:
+        rows.append(("lubrication", "dry: the file has no [oil], so films, friction and temperatures are left out"))
     if runs:
         rows += [
             ("lambda ratio", _film(element, runs)),

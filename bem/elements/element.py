@@ -7,7 +7,8 @@ import io
 import math
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import resources
@@ -55,7 +56,7 @@ from bem.notes.elements import (
 from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import with_unit
 from bem.scenes.checks.hertz import smooth_contact
-from bem.scenes.checks.plausible import notes_on_table
+from bem.scenes.checks.plausible import notes_on_bare_numbers, notes_on_table
 from bem.scenes.oil import OilScene
 from bem.scenes.template import without_description
 from bem.scenes.units import turns_without_angle
@@ -511,7 +512,10 @@ class Element:
     ) -> tuple[dict[str, Any], list[str]]:
         """Return the keys of a scene of one contact with an oil film and what it assumes; raises as `scene`."""
         if self.model.oil is None:
-            raise InputError(f"{self.model.name}: a film needs an oil; allowed: a table [oil], or kind contact")
+            raise InputError(
+                f"{self.model.name}: kind {kind} has an oil film, and the file no [oil]; allowed: a table [oil], or "
+                "kind contact or surface-temperature, which are dry"
+            )
         ratio = contact.slide_roll_ratio
         if not abs(ratio) <= 2:
             raise InputError(
@@ -620,14 +624,31 @@ def load_element(source: str | Path | Mapping[str, Any]) -> Element:
         raise InputError(f'element = "{kind}": {NOT_MODELLED[kind]}')
     if kind not in MODELS:
         listed = ", ".join(f'"{name}"' for name in MODELS)
-        found = show(table.get("element"))
+        if table.get("element") is None:
+            raise InputError(f"element: missing; allowed: {listed}")
+        found = show(table["element"])
         raise InputError(f"element = {found}: not allowed{nearest(kind, MODELS)}; allowed: {listed}")
     if isinstance(table.get("oil"), Mapping):
         table["oil"] = with_temperature(with_pressure_viscosity(table["oil"]), table)
     try:
         return Element(validate(table, MODELS[kind]), table)
     except InputError as error:  # what is wrong with the whole is said of the element
-        raise InputError([_of_element(kind, text) for text in error.messages]) from None
+        unusual = notes_on_bare_numbers(MODELS[kind], table)
+        raise InputError([*unusual, *(_of_element(kind, text) for text in error.messages)]) from None
+
+
+@contextmanager
+def unusual_values_named(element: Element) -> Iterator[None]:
+    """Say first which values of the file are outside their usual range where films of the element are refused.
+
+    Raises
+    ------
+    InputError : the one that is raised within, with the notes on unusual values before it.
+    """
+    try:
+        yield
+    except InputError as error:
+        raise InputError([*notes_on_table(element.model), *error.messages]) from None
 
 
 def _of_element(kind: str, message: str) -> str:

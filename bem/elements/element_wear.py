@@ -12,7 +12,7 @@ from bem.particles import particle_number
 
 CITES = ("archard1953",)
 """Source of the wear law, a key of `bem/references.bib`."""
-_LAW = "; Archard's law with the whole load and a wear rate of this lubrication"
+_LAW = "; Archard's law with the whole load and the given wear rate"
 _NAMES = {"gear-pair": ("pinion", "wheel"), "cam-follower": ("cam", "follower")}
 """Names of body 1 and body 2."""
 _ROLLS = "none: both surfaces roll at one speed without sliding"

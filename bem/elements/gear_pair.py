@@ -32,6 +32,7 @@ from bem.elements.model import Contacts, ElementModel
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.materials import contact_modulus
+from bem.quantities import with_unit
 from bem.scenes.common import PositiveLength, PositivePressure, problem
 from bem.scenes.units import Angle, Dimension, Number, Ratio, RotationSpeed
 
@@ -94,8 +95,14 @@ class GearModel(ElementModel):
             )
         ratio = path.contact_ratio + leaning
         if path.contact_ratio <= 0 or ratio < 1:
-            said = f"contact ratio {path.contact_ratio:.3g}" + (f" and overlap ratio {leaning:.3g}" if leaning else "")
-            raise problem(f"{said}: below 1 the teeth lose each other", "1 and more, both together")
+            said = f"contact ratio {path.contact_ratio:.3g}"
+            more = "1 and more"
+            if leaning:
+                said, more = f"{said} and overlap ratio {leaning:.3g}", "1 and more of both together"
+            if self.tip_diameters is not None:
+                usual = " and ".join(with_unit(d, "m") for d in self._usual_tips())
+                more = f"{more}; with these teeth tip_diameters are usually {usual}"
+            raise problem(f"{said}: below 1 the teeth lose each other", more)
         return self
 
     def _check_distance(self, given: float, path: Path) -> None:
@@ -107,6 +114,12 @@ class GearModel(ElementModel):
                 f"{1e3 * given:.6g} mm",
                 f"one of both, or profile_shifts with a sum of {total:.4g}",
             )
+
+    def _usual_tips(self) -> tuple[float, float]:
+        """Tip diameters of standard teeth, as high over the reference circle as the module and the shift [m]."""
+        lean = math.cos(self.helix_angle)
+        pinion, wheel = (self.module * (z / lean + 2 + 2 * x) for z, x in zip(self.teeth, self.shifts, strict=True))
+        return pinion, wheel
 
     @cached_property
     def shifts(self) -> tuple[float, float]:

@@ -122,7 +122,8 @@ class PlainBushModel(ElementModel):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         if (self.speed is None) == (self.oscillation is None):
-            raise problem("neither or both of speed and oscillation are given", "one of them")
+            both = self.speed is not None
+            raise problem(f"{'both' if both else 'neither'} of speed and oscillation given", "one of them")
         if not self.clearance < 0.1 * self.shaft_diameter:
             raise problem("clearance is above a tenth of the shaft diameter", "bore less shaft diameter")
         if self.wall is not None and not self.wall >= 0.01 * self.shaft_diameter:

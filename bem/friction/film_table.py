@@ -100,7 +100,7 @@ class FilmTable:
         InputError : a load that is not positive, or larger than the table's.
         """
         if not 0 < load <= self.largest_load * (1 + 1e-12):
-            raise InputError(f"load: {load!r} N must lie between 0 and the table's {self.largest_load:g} N")
+            raise InputError(f"load: {load:.6g} N must lie between 0 and the table's {self.largest_load:.6g} N")
         place = max(math.log(self.largest_load / load) / self.films.step, 0.0)
         if place < 1e-9:
             return self._sampled(0)

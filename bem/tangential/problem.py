@@ -156,5 +156,5 @@ def check_force(force: FloatArray, bound: FloatArray, grid: Grid) -> None:
     limit, size = float(bound.sum()) * grid.cell_area, math.hypot(*force)
     if not size < limit and (limit > 0 or size > 0):
         raise InfeasibleError(
-            f"force: {size!r} N must be less than friction x load = {limit!r} N; beyond it everything slides"
+            f"force: {size:.6g} N must be less than friction x load = {limit:.6g} N; beyond it everything slides"
         )

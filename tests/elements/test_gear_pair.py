@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from bem import InputError, load_scene
-from bem.elements.answer import answer, friction_power
-from bem.elements.element import element_template, load_element
+from bem.elements.answer import answer, balance_heat, friction_power
+from bem.elements.element import element_template, load_element, unusual_values_named
 from bem.elements.element_wear import worn_volume_rate
 from bem.elements.gear_pair import GearModel, path_of_contact
 from bem.elements.gear_scuffing import mean_flash_temperature, sliding_power
@@ -424,3 +424,19 @@ def test_the_fit_to_gear_tests_names_its_load_sharing(helix, over, words):
     said = dict(answer(element, [run_contact(element, element.worst())]))["friction power"]
     assert "W by a fit to gear tests (Schlenk, mean friction coefficient 0.04" in said
     assert f") with the load {words}" in said
+
+
+def test_lengths_without_a_unit_are_named_where_gears_are_refused():
+    """`module = 3` is three metres: the note on it comes before what follows from it, the refusal of the geometry or of
+    a film; tip diameters that do not reach each other are named with the usual ones."""
+    with pytest.raises(InputError) as refused:
+        made(module=3, tip_diameters=["82.46 mm", "118.36 mm"])
+    assert refused.value.messages[0].startswith("module: The module, 3 m, is outside")
+    assert "contact ratio" in refused.value.messages[1]
+    with pytest.raises(InputError, match="tip_diameters are usually 66 mm and 165 mm"):
+        made(module="3 mm", teeth=[20, 53], profile_shifts=[0, 0], tip_diameters=["60 mm", "155 mm"])
+    oil = {"grade": "ISO VG 100", "temperature": "60 degC"}
+    element = made(oil=oil, heat_balance={"conductance": "30 W/K", "ambient": "40 K"})
+    with pytest.raises(InputError) as cold, unusual_values_named(element):
+        balance_heat(element)
+    assert cold.value.messages[0].startswith("heat_balance.ambient: The temperature, 40 K")

@@ -684,8 +684,8 @@ def test_an_assumed_friction_is_that_on_steel():
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"speed": None}, "neither or both"),
-        ({"oscillation": {"amplitude": "20 deg", "frequency": "2 1/s"}}, "neither or both"),
+        ({"speed": None}, "neither of speed"),
+        ({"oscillation": {"amplitude": "20 deg", "frequency": "2 1/s"}}, "both of speed"),
         ({"clearance": "3 mm"}, "clearance"),
         ({"wall": "0.1 mm"}, "coating"),
         ({"wall": None}, "housing without wall"),

@@ -106,7 +106,7 @@ def test_what_conforms_is_said_to():
     edge = WIDE * ball
     gap = [r - math.sqrt(r**2 - edge**2) - edge**2 / (2 * r) for r in (ball, groove)]
     assert (gap[0] - gap[1]) / (0.5 * edge**2 * (1 / ball - 1 / groove)) == pytest.approx(0.07, abs=0.005)
-    with pytest.raises(InputError, match="needs an oil"):
+    with pytest.raises(InputError, match="has an oil film"):
         found.scene(found.worst(), "traction")
     with pytest.raises(InputError, match="no oil"):
         found.thinnest()

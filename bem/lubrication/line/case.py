@@ -16,6 +16,7 @@ from bem.lubrication.flow_factors import WallFactors, walls_of
 from bem.lubrication.line.problem import Problem, Scales, line_scales, scaled_problem
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.results import FilmSolution
+from bem.quantities import with_unit
 
 MOES_LOADS = (1e-5, 3e5)
 """Smallest and largest load M that is accepted. Films converge there for L from 0 to 10, independent of the mesh within
@@ -75,12 +76,12 @@ class LineCase:
         scales = line_scales(*case, abs(entrainment), self.lubricant.viscosity)
         low, high = MOES_LOADS
         if not low <= scales.load <= high:
-            advice = "Raise the load, or give contact_modulus=math.inf."
+            advice = "Raise the load, or lower speed or viscosity."
             if scales.load > high:
                 advice = "The film cannot carry that: lower the load, or raise speed or viscosity."
             raise InputError(
-                f"load: {case[0]!r} N/m is {scales.load:.3g} in Moes' units w / sqrt(2 E* R mu (u1+u2)); a film is "
-                f"looked for between {low:g} and {high:g}. {advice}"
+                f"load: {with_unit(case[0], 'N/m')} is outside the films that can be solved: M = w / sqrt(2 E* R mu "
+                f"(u1+u2)), Moes' parameter of the load, is {scales.load:.3g}; allowed: {low:g} to {high:g}. {advice}"
             )
         if not rigid:
             check_oil(self.lubricant, scales.pressure)

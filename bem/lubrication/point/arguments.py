@@ -10,6 +10,7 @@ from bem.arguments import is_finite, is_positive
 from bem.errors import InputError
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.problem import Rectangle, ScaledCase
+from bem.quantities import with_unit
 
 MOES_LOADS = (1e-2, 1e5)
 """Smallest and largest load M of elastic bodies: below, the bodies are rigid."""
@@ -40,12 +41,12 @@ def check_load(case: ScaledCase, load: float) -> None:
     scales = case.scales
     low, high = MOES_LOADS
     if not scales.rigid and not low <= scales.load <= high:
-        advice = "Raise the load, or give contact_modulus=math.inf."
+        advice = "Raise the load, or lower speed or viscosity."
         if scales.load > high:
             advice = "The film cannot carry that: lower the load, or raise speed or viscosity."
         raise InputError(
-            f"load: {load!r} N is {scales.load:.3g} in Moes' units of a point contact; a film is looked for between "
-            f"{low:g} and {high:g}. {advice}"
+            f"load: {with_unit(load, 'N')} is outside the films that can be solved: Moes' parameter M of the load is "
+            f"{scales.load:.3g}; allowed: {low:g} to {high:g}. {advice}"
         )
     if case.hertz is None:
         return
@@ -53,8 +54,8 @@ def check_load(case: ScaledCase, load: float) -> None:
     larger = max(along, across * scales.ratio)
     if larger > 1:
         raise InputError(
-            f"load: {load!r} N makes a contact {larger:.3g} times as large as the radius of the body: check the units "
-            "of load, radii and contact_modulus [N, m, Pa]"
+            f"load: {with_unit(load, 'N')} makes a contact {larger:.3g} times as large as the radius of the body: "
+            "check the units of load, radii and contact_modulus [N, m, Pa]"
         )
 
 

@@ -44,6 +44,7 @@ from bem.lubrication.thermal.lumped_energy import Channel, Temperatures, film_te
 from bem.materials import Body
 from bem.notes import Note
 from bem.notes.lubrication import HEAT_NOT_FOUND
+from bem.quantities import with_unit
 from bem.reference_solutions.line_film import moes_central
 from bem.threads import one_blas_thread
 
@@ -269,8 +270,8 @@ def _check_load(case: LineCase, thinner: Lubricant, inlet: InletHeating) -> None
     if case.load > highest:
         raise InputError(
             f"thermal: shear heating in the inlet leaves {inlet.factor:.2g} of the film, as of an oil "
-            f"of {thinner.viscosity:.3g} Pa s, with which a film is looked for up to {highest:.4g} N/m: load "
-            f"{case.load!r} N/m is beyond it. Lower the load or the speeds."
+            f"of {with_unit(thinner.viscosity, 'Pa*s')}, which carries {with_unit(highest, 'N/m')} at most: load "
+            f"{with_unit(case.load, 'N/m')} is beyond it. Lower the load or the speeds."
         )
 
 

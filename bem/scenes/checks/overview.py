@@ -115,6 +115,9 @@ def differing(facts: Facts) -> tuple[list[str], list[list[str]]]:
     """Names of what differs between the contacts, and a row for each contact, at most twelve; nothing for one
     contact."""
     columns = [_column(case) for case in facts.cases]
+    if len(columns) == 2 and (facts.cases[0].grid is None) != (facts.cases[1].grid is None):
+        for case, column in zip(facts.cases, columns, strict=True):  # a patch of the roughness beside the whole contact
+            column[_CASE] = "whole contact" if case.grid is None else "rough patch"
     names = [name for name in _names(columns) if len({column.get(name, "") for column in columns}) > 1]
     rows = [[column.get(name, "") for name in names] for column in columns]
     if len(rows) > _MOST_CASES:
@@ -149,9 +152,11 @@ def _column(case: Case) -> dict[str, str]:
             found |= _hertz(case, smooth)
         if grid is not None:
             across = [2 * a / d for a, d in zip(semi_axes, grid.spacing, strict=True) if math.isfinite(a)]
-            found["cells across it"] = f"{min(across):.3g}"
+            found["cells across Hertz' contact" if on_layer is None else "cells across the contact"] = (
+                f"{min(across):.3g}"
+            )
             share = max(2 * a / n for a, n in zip(semi_axes, grid.lengths, strict=True) if math.isfinite(a))
-            found["of the grid"] = percent(share) if share <= 1 else f"{share:.2g} times its length"
+            found["contact over the grid's length"] = percent(share) if share <= 1 else f"{share:.2g} times its length"
     if case.depths:
         deepest = f"{len(case.depths)} down to {si(case.depths[-1], 'm')}"
         steps = [b - a for a, b in zip(case.depths, case.depths[1:], strict=False)]

@@ -6,7 +6,7 @@ Walks the tables, so that a key of a new kind is checked as soon as its name or 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -84,6 +84,24 @@ def values_over(scene: SceneModel) -> Values:
 def notes_on_table(table: Table) -> list[Note]:
     """Notes on the values of any table, such as that of a machine element."""
     return notes_on(values_of(table))
+
+
+def notes_on_bare_numbers(table: type[Table], given: Mapping[str, Any]) -> list[Note]:
+    """Notes on the numbers without a unit of a table as the user wrote it, which may be refused: read in SI units.
+
+    table : the kind of the table. given : its keys and values.
+    """
+    units = _units(table)
+    return notes_on(
+        (key, usual, float(number))
+        for name, value in given.items()
+        if name in units
+        for key, number in (
+            [(name, value)] if not isinstance(value, list) else [(f"{name}[{n}]", one) for n, one in enumerate(value)]
+        )
+        if isinstance(number, int | float) and not isinstance(number, bool)
+        if (usual := range_of_key(key, units[name])) is not None
+    )
 
 
 def values_of(value: Any, key: str = "", unit: str | None = None) -> Values:
