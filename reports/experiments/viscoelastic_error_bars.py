@@ -9,7 +9,7 @@ tenth of the tolerance in time. The result is stored in `reports/results/viscoel
 The floors of the bars were chosen on seed 2611, on which the bar of the friction covered 29 of 32 errors. The stored
 rows have another seed. On it the bars of friction cover 26 of 27 errors, those of the dissipated power 25 (both misses
 are of cells far longer than the memory, one of 8 % with a bar of 5 %), those of the highest pressure 59 of 60, and all
-others all. They are wide: medians of 5 to 9 times the error, 14 for the highest pressure and 26 for the dissipated
+others all. They are wide: medians of 4 to 9 times the error, 14 for the highest pressure and 26 for the dissipated
 energy.
 """
 
