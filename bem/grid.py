@@ -76,6 +76,14 @@ class Grid:
         return self.shape[0] * self.shape[1]
 
     @property
+    def varying_axes(self) -> tuple[int, ...]:
+        """Axes along which fields vary: not a periodic one of one cell, whose length means nothing.
+
+        Of a grid with such axes alone both are returned.
+        """
+        return tuple(axis for axis in (0, 1) if self.shape[axis] > 1 or not self.periodic[axis]) or (0, 1)
+
+    @property
     def cell_area(self) -> float:
         """Area of one cell [m^2]."""
         return self.spacing[0] * self.spacing[1]

@@ -125,11 +125,12 @@ def solve_contact(
 def _notes_on_arguments(operator: DisplacementOperator, load: float | None, hardness: float | None) -> tuple[Note, ...]:
     """Return notes on arguments of `solve_contact` outside their usual ranges."""
     own = notes_on_arguments({"load": ("load", load), "hardness": ("hardness", hardness)})
-    return own + _notes_on_operator(operator.bodies, operator.grid.spacing)
+    grid = operator.grid
+    return own + _notes_on_operator(operator.bodies, tuple(grid.spacing[axis] for axis in grid.varying_axes))
 
 
 @lru_cache(maxsize=64)
-def _notes_on_operator(bodies: tuple[Body, ...], spacing: tuple[float, float]) -> tuple[Note, ...]:
+def _notes_on_operator(bodies: tuple[Body, ...], spacing: tuple[float, ...]) -> tuple[Note, ...]:
     """Return notes on the bodies and the cell size [m] of an operator, cached for loops over contacts."""
     return notes_on_arguments({"grid.spacing": ("cell of the grid", spacing)} | body_arguments(bodies))
 

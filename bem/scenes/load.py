@@ -14,12 +14,14 @@ from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel
+from pydantic_core import PydanticCustomError
 
 from bem.arguments import did_you_mean, read_small
 from bem.errors import InputError
 from bem.scenes.common import SceneModel
 from bem.scenes.kind import KINDS, get_kind, kind_names
-from bem.scenes.paths import Key, absolute, drop, parse_key, put, values_in_file
+from bem.scenes.paths import Key, absolute, drop, parse_key, put, value_at, values_in_file
+from bem.scenes.ranges import values_of_keys
 from bem.scenes.validate import capped, is_pair, show, validate
 from bem.scenes.values import dumped, parse_toml, plain_value
 from bem.scenes.walk import own_keys
@@ -65,8 +67,34 @@ def scene_from_table(data: Any, folder: Path | None = None) -> SceneModel:
     if not_text:
         raise InputError(capped(not_text))
     table = _absolute(data, (folder or Path.cwd()).resolve())
-    scene = validate(table, get_kind(kind).model)
+    model = get_kind(kind).model
+    try:
+        scene = validate(table, model)
+    except InputError:
+        complete = _with_first_values(table)
+        if complete is None:
+            raise
+        scene = validate(complete, model)
     return scene if scene.over is None else scene.with_source(table)
+
+
+def _with_first_values(table: Mapping[str, Any]) -> dict[str, Any] | None:
+    """Return the table with the first value of each key of `over` that it does not set; None if it sets all of them."""
+    try:
+        over = values_of_keys(table.get("over"))
+    except PydanticCustomError:
+        return None
+    complete = dict(table)
+    missing = False
+    for name, values in over.items():
+        key = parse_key(name)
+        if key is not None and value_at(table, key) is None:
+            missing = True
+            try:
+                _put_value(complete, key, values[0])
+            except InputError:
+                return None
+    return complete if missing else None
 
 
 def scenes_over(scene: SceneModel) -> list[SceneModel]:
@@ -97,12 +125,17 @@ def scenes_at(data: Mapping[str, Any], over: Mapping[str, Sequence[Any]]) -> lis
                 parsed = parse_key(key)
                 if parsed is None:
                     raise InputError(f'over: "{key}" is no key; allowed: dotted keys such as contact.load')
-                put(own, parsed, plain_value(value) if isinstance(value, str) else value, pair=_is_pair(own, parsed))
+                _put_value(own, parsed, value)
             found.append(scene_from_table(own))
         except InputError as error:
             gather(mistakes, words_at(over, values), error)
     refuse(mistakes)
     return found
+
+
+def _put_value(data: dict[str, Any], key: Key, value: Any) -> None:
+    """Set a key, in place, to a value of `over`."""
+    put(data, key, plain_value(value) if isinstance(value, str) else value, pair=_is_pair(data, key))
 
 
 def gather(mistakes: dict[str, list[str]], place: str, error: InputError) -> None:

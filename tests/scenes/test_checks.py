@@ -283,6 +283,21 @@ def test_a_check_of_scenes_fires_where_it_should_and_not_next_to_it(name):
 
 
 @pytest.mark.internal
+@pytest.mark.parametrize("size", [{"lengths": ["400 um", "16 mm"]}, {"spacing": ["12.5 um", "16 mm"]}])
+def test_the_one_cell_of_a_period_is_no_cell_to_warn_of(size):
+    """Of a line contact it has any length: no usual range holds for it, and no layer is thin against it."""
+    layer = {"material": "dlc", "thickness": "20 um"}
+    line = with_(BALL, shape__kind="cylinder", lower__layer=layer)
+    told = []
+    for cells, periodic in ((1, True), (1, False), (2, True)):
+        scene = line | {"grid": {"shape": [32, cells], "periodic": [False, periodic]} | size}
+        told.append(" ".join(map(str, scene_warnings(facts_of(scene)))))
+    words = ("outside its usual range", "thick on cells of")
+    assert not any(word in told[0] for word in words)
+    assert all(word in told[1] for word in words)
+    assert words[1] in told[2]
+
+
 def test_interfaces_that_no_depths_bracket_are_named():
     """Three depths in every layer and none near the interface at 2 um; a depth at it lies in the layer above."""
     depths = ["0.5 um", "1 um", "1.5 um", "2.2 um", "2.3 um", "2.4 um", "2.55 um"]

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from bem.errors import InputError
 from bem.runs import plan_scene
 from bem.scenes import dump_scene, get_kind, kind_names, load_scene
+from bem.scenes.load import scenes_over
 from bem.scenes.planner import available_memory
 
 SCENE = {
@@ -140,6 +141,20 @@ def test_capped_without_any_hardness():
     data = changed(contact__behaviour="capped", lower__material="phosphor-bronze", upper={})
     (found,) = messages(data)
     assert "contact.hardness: missing" in found
+
+
+def test_a_key_that_only_over_sets_has_its_first_value():
+    """What a scene without it lacks is not refused; a wrong first value is, and the scene is stored as written."""
+    data = changed(over={"contact.mean_pressure": ["2 MPa", "3 MPa"]})
+    data["contact"] = {}
+    loaded = load_scene(data)
+    assert loaded.contact.mean_pressure == 2e6
+    assert [one.contact.mean_pressure for one in scenes_over(loaded)] == [2e6, 3e6]
+    assert loaded.source["contact"] == {}
+    with pytest.raises(InputError, match="unknown unit"):
+        load_scene(data | {"over": {"contact.mean_pressure": ["2 X", "3 MPa"]}})
+    with pytest.raises(InputError, match="none of load"):
+        load_scene(data | {"over": {"contact.friction": [0.1, 0.2]}})
 
 
 def test_settings_change_the_scene():

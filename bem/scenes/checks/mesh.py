@@ -126,15 +126,14 @@ def layer_against_the_mesh(facts: Facts) -> Iterator[Note]:
         for name, body in case.bodies.items():
             if body.layer is None or case.grid is None:
                 continue
-            thickness, spacing = body.layer.thickness, max(case.grid.spacing)
+            thickness, axes = body.layer.thickness, case.grid.varying_axes
+            spacing, length = (max(sides[axis] for axis in axes) for sides in (case.grid.spacing, case.grid.lengths))
             if thickness < 0.5 * spacing and (name, "thin") not in seen:
                 seen.add((name, "thin"))
                 yield LAYER_MESH(case.note_place(f"{name}.layer"), thickness=thickness, cell=spacing, reason="thin")
-            if thickness > 2 * max(case.grid.lengths) and not all(case.grid.periodic) and (name, "thick") not in seen:
+            if thickness > 2 * length and not all(case.grid.periodic) and (name, "thick") not in seen:
                 seen.add((name, "thick"))
-                yield LAYER_MESH(
-                    case.note_place(f"{name}.layer"), thickness=thickness, length=max(case.grid.lengths), reason="thick"
-                )
+                yield LAYER_MESH(case.note_place(f"{name}.layer"), thickness=thickness, length=length, reason="thick")
 
 
 @scene_check

@@ -10,6 +10,7 @@ from collections.abc import Collection, Iterator, Mapping
 from functools import lru_cache
 from typing import Any
 
+from bem.grid import Grid
 from bem.notes import Note
 from bem.notes.scenes import OILS_AT_ONE_TEMPERATURE
 from bem.physical_constants import ZERO_CELSIUS
@@ -17,7 +18,7 @@ from bem.plausibility import BY_NAME, UsualRange, notes_on, range_of_key
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.surfaces import SPIKY_KURTOSIS
-from bem.scenes.common import MaterialScene, MeasuredSurface, SceneModel
+from bem.scenes.common import GridScene, MaterialScene, MeasuredSurface, SceneModel
 from bem.scenes.load import scenes_over
 from bem.scenes.maps import height_unit_note
 from bem.scenes.table import Table
@@ -112,7 +113,11 @@ def values_of(value: Any, key: str = "", unit: str | None = None) -> Values:
         for name in units:
             if rigid and name == "youngs_modulus":  # a stand-in for a rigid body
                 continue
-            yield from values_of(getattr(value, name), f"{key}.{name}" if key else name, units[name])
+            found = values_of(getattr(value, name), f"{key}.{name}" if key else name, units[name])
+            if isinstance(value, GridScene) and name == "spacing" and value.shape is not None and value.spacing:
+                axes = Grid(value.shape, value.spacing, periodic=value.periodic).varying_axes
+                found = (one for axis, one in enumerate(found) if axis in axes)
+            yield from found
     elif isinstance(value, (list, tuple)):
         for place, inner in enumerate(value):
             yield from values_of(inner, f"{key}[{place}]", unit)
@@ -125,8 +130,8 @@ def _derived(facts: Facts) -> Values:
     given = getattr(getattr(facts.scene, "grid", None), "spacing", None) is not None  # as a key of its own
     for case in facts.cases:
         if case.grid is not None and not given:
-            for spacing in case.grid.spacing:
-                yield f"grid{case.at}: cells", BY_NAME["cell of the grid"], spacing
+            for axis in case.grid.varying_axes:
+                yield f"grid{case.at}: cells", BY_NAME["cell of the grid"], case.grid.spacing[axis]
         law = getattr(getattr(facts.scene, "contact", None), "boundary_friction", None)
         if law is not None and not isinstance(law, float):
             yield f"contact.boundary_friction{case.at}", BY_NAME["friction"], case.friction
