@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from bem.elements.bearing_life import life_notes, life_rows
@@ -166,24 +166,31 @@ def _scattered(side: int, one: Running) -> float:
 def likely_power(element: Element, runs: Sequence[Running]) -> float:
     """Return the likely friction power [W]: of gears with roughness by the fit to gear tests, of a bush by a given
     friction coefficient, of others with asperity contact, without roughness that of the films."""
+    if (known := _power_without_films(element)) is not None:
+        return known
+    power = friction_power(element, runs)
+    return power.film if power.with_asperities is None else power.with_asperities
+
+
+def _power_without_films(element: Element) -> float | None:
+    """Return the likely friction power [W] where no film decides it, else None."""
     if isinstance(element.model, GearModel):
         tests = friction_of_gear_tests(element)
         if tests is not None:
             return sliding_power(element, tests.power)
     if isinstance(element.model, PlainBushModel) and element.model.friction is not None:
         return element.model.friction * element.model.radial_load * element.model.sliding_speed
-    power = friction_power(element, runs)
-    return power.film if power.with_asperities is None else power.with_asperities
+    return None
 
 
 def balance_heat(element: Element, *, most: int = PLACES) -> Element:
     """Return the element with the bulk temperature of its heat balance, or of gears without one an estimate.
 
     The bulk temperature is that of the surroundings plus friction power (`likely_power`) over conductance,
-    found by secants. Films of gears are at their bulk temperature, as ISO/TS 6336-22 takes the viscosity in its film
-    thickness (known from textbooks; the standard was not read): without one of the file it is that of scuffing,
-    `bem.elements.gear_scuffing.estimated_bulk`. A lubricated bush without a balance has the usual conductance. Other
-    elements without a balance are returned as they are.
+    found by secants; with `thermal = "full"` from the balance with lumped heat on. Films of gears are at their bulk
+    temperature, as ISO/TS 6336-22 takes the viscosity in its film thickness (known from textbooks; the standard was not
+    read): without one of the file it is that of scuffing, `bem.elements.gear_scuffing.estimated_bulk`. A lubricated
+    bush without a balance has the usual conductance. Other elements without a balance are returned as they are.
     """
     balance = element.model.heat_balance
     if isinstance(element.model, PlainBushModel):
@@ -196,11 +203,22 @@ def balance_heat(element: Element, *, most: int = PLACES) -> Element:
     conductance = balance.conductance
     assert conductance is not None
 
-    def excess(temperature: float) -> float:
-        at = element.at_bulk(temperature)
-        return around + likely_power(at, run_all(at, most=most)) / conductance - temperature
+    def excess_with(heat: Element, temperature: float) -> float:
+        at = heat.at_bulk(temperature)
+        power = _power_without_films(at)
+        if power is None:
+            power = likely_power(at, run_all(at, most=most))
+        return around + power / conductance - temperature
 
-    return element.at_bulk(_balanced(excess, around))
+    start = around
+    if element.model.thermal == "full" and _power_without_films(element) is None:
+        lumped = replace(
+            element,
+            model=element.model.model_copy(update={"thermal": "lumped"}),
+            table={**element.table, "thermal": "lumped"},
+        )
+        start = _balanced(partial(excess_with, lumped), around)
+    return element.at_bulk(_balanced(partial(excess_with, element), start))
 
 
 def _balance_bush(element: Element, model: PlainBushModel) -> Element:

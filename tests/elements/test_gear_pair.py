@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bem import InputError, load_scene
-from bem.elements.answer import answer, balance_heat, friction_power
+from bem.elements.answer import answer, balance_heat, friction_power, likely_power
 from bem.elements.element import element_template, load_element, unusual_values_named
 from bem.elements.element_wear import worn_volume_rate
 from bem.elements.gear_pair import GearModel, path_of_contact
@@ -440,3 +440,15 @@ def test_lengths_without_a_unit_are_named_where_gears_are_refused():
     with pytest.raises(InputError) as cold, unusual_values_named(element):
         balance_heat(element)
     assert cold.value.messages[0].startswith("heat_balance.ambient: The temperature, 40 K")
+
+
+def test_a_balance_of_gears_by_the_fit_to_gear_tests_solves_no_film(monkeypatch):
+    """Its friction power follows from load, speeds and oil; films with full heat took many minutes."""
+    oil = {"grade": "ISO VG 100", "temperature": "60 degC"}
+    balance = {"conductance": "30 W/K", "ambient": "20 degC"}
+    element = made(oil=oil, heat_balance=balance, rms_roughness="500 nm", thermal="full")
+    monkeypatch.setattr("bem.elements.answer.run_all", lambda *_, **__: pytest.fail("a film is solved"))
+    found = balance_heat(element)
+    rise = found.model.bulk_temperature - 293.15
+    assert rise == pytest.approx(likely_power(found, ()) / 30, abs=0.2)
+    assert rise > 1
