@@ -29,7 +29,13 @@ from bem.elements.contact import ElementContact
 from bem.elements.element import AT_MARK, Element
 from bem.elements.element_wear import particles_per_hour, wear_per_hour, worn_volume_rate
 from bem.elements.gear_pair import GearModel
-from bem.elements.gear_scuffing import estimated_bulk, friction_of_gear_tests, scuffing_of, sliding_power
+from bem.elements.gear_scuffing import (
+    estimated_bulk,
+    friction_of_gear_tests,
+    scuffing_of,
+    sliding_power,
+    tooth_loss_power,
+)
 from bem.elements.model import LEAST_ASPERITY_SHARE
 from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
@@ -38,7 +44,7 @@ from bem.elements.running import Running, columns, run_all
 from bem.elements.running import notes as film_notes
 from bem.errors import InputError
 from bem.notes import Note
-from bem.notes.elements import BUSH_BOUNDS, BUSH_CONFORMS, BUSH_FLOATS, BUSH_LEAKS
+from bem.notes.elements import BUSH_BOUNDS, BUSH_CONFORMS, BUSH_FLOATS, BUSH_LEAKS, SURFACES_TOUCH
 from bem.notes.note import has_code, percent, without
 from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import plain_digits, with_unit
@@ -374,12 +380,33 @@ def all_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...]:
     """Return the notes on an element, on its answer and on its solved films; `solved` as in `answer`.
 
     Where the film of a bush is outside the model or between bounds, the weaker cautions that take it for an estimate or
-    an upper bound are left out.
+    an upper bound are left out. Where films are solved, places with a lambda ratio below one are counted by them.
     """
-    found = (*element.notes(), *answer_notes(element, solved), *film_notes(solved))
+    own = element.notes()
+    if any(one.converged and one.film_ratio is not None for one in solved):
+        touching = element.touching_note(_ratios_by_films(element, solved))
+        own = (*without(own, SURFACES_TOUCH), *([] if touching is None else [touching]))
+    found = (*own, *answer_notes(element, solved), *film_notes(solved))
     if has_code(found, BUSH_FLOATS):
         return without(found, BUSH_CONFORMS, BUSH_LEAKS)
     return without(found, BUSH_LEAKS) if has_code(found, BUSH_BOUNDS) else found
+
+
+def _ratios_by_films(element: Element, solved: Sequence[Running]) -> list[float]:
+    """Return the lambda ratios of all contacts: those of the solved films, and elsewhere that of the formula times what
+    the film of the nearest solved place is of its own formula; without a steady film, the formula's."""
+    contacts, formula = element.found.contacts, element.columns()["film_over_roughness"]
+    own = {one.contact: one.film_ratio for one in solved if one.converged and one.film_ratio is not None}
+    over = [(one, own[one] / ratio) for one, ratio in zip(contacts, formula, strict=True) if one in own]
+
+    def ratio(one: ElementContact, by_formula: float) -> float:
+        if one in own:
+            return own[one]
+        if abs(one.slide_roll_ratio) > 2 or not over:
+            return by_formula
+        return by_formula * min(over, key=lambda each: abs(each[0].place - one.place))[1]
+
+    return [ratio(one, by_formula) for one, by_formula in zip(contacts, formula, strict=True)]
 
 
 def table_columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]:
@@ -560,7 +587,8 @@ def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str,
             sharing = "even along all lines of contact" if model.helix_angle else "shared by the teeth (ISO/TR 15144-1)"
             best = (
                 f"{by_tests} W by a fit to gear tests (Schlenk, mean friction coefficient {tests.power:.3g}) with the "
-                f"load {sharing}"
+                f"load {sharing}, {plain_digits(tooth_loss_power(model, tests.power), 3)} W with the tooth loss factor "
+                "H_v of textbooks (compare helical with spur gears by the latter)"
             )
             said.insert(0, best)
         given = model.pinion_torque * model.speed

@@ -46,6 +46,7 @@ from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
 from bem.notes.checks import SLOPES_LARGE, YIELDS
 from bem.notes.elements import (
+    BODIES_COLDER,
     GLYCOL_ASSUMED,
     NO_HEAT,
     OIL_FOLLOWS_BALANCE,
@@ -329,6 +330,8 @@ class Element:
         notes = [*notes_on_table(self.model), *self.found.notes, *self.model.viscosity_notes()]
         if (unused := self._unused_oil_temperature()) is not None:
             notes.append(unused)
+        if (colder := self._colder_than_oil()) is not None:
+            notes.append(colder)
         if (bare := self.speed_note()) is not None:
             notes.append(bare)
         if not isinstance(self.model, PlainBushModel) and has_assumed_coefficient(self.model.oil):
@@ -344,13 +347,30 @@ class Element:
             notes.append(NO_HEAT(bodies=" and ".join(cold), reason="bodies"))
         elif self.model.film_oil is not None and not conducts(self.model):
             notes.append(NO_HEAT(reason="oil"))
-        ratios = self.columns().get("film_over_roughness", [])
-        touching = sum(ratio < 1 for ratio in ratios)
-        if touching and not isinstance(self.model, PlainBushModel):  # whose solved film tells it
-            rolls = not any(one.slide_roll_ratio for one in self.found.contacts)
-            reason = "rolls" if rolls else "slides"
-            notes.append(SURFACES_TOUCH(touching=touching, places=len(ratios), reason=reason))
+        if (touching := self.touching_note(self.columns().get("film_over_roughness", []))) is not None:
+            notes.append(touching)
         return tuple(notes)
+
+    def touching_note(self, ratios: Sequence[float]) -> Note | None:
+        """Return a note on the places whose lambda ratio is below one; None without such places.
+
+        ratios : of all contacts, or none. A bush has words of its own.
+        """
+        touching = sum(ratio < 1 for ratio in ratios)
+        if not touching or isinstance(self.model, PlainBushModel):
+            return None
+        reason = "slides" if any(one.slide_roll_ratio for one in self.found.contacts) else "rolls"
+        return SURFACES_TOUCH(touching=touching, places=len(ratios), reason=reason)
+
+    def _colder_than_oil(self) -> Note | None:
+        """Return a note on a bulk temperature of the file below that of the oil, None without one."""
+        given, oil = self.table.get("bulk_temperature"), self.model.oil
+        bulk = self.model.bulk_temperature
+        if given is None or bulk is None or oil is None or oil.temperature is None or self.ambient is not None:
+            return None
+        if self.model.heat_balance is not None or bulk > oil.temperature - _ALIKE:
+            return None
+        return BODIES_COLDER(bulk=bulk - ZERO_CELSIUS, oil=oil.temperature - ZERO_CELSIUS)
 
     def _unused_oil_temperature(self) -> Note | None:
         """Return a note on an oil temperature beside a heat balance with an ambient, which gives another one."""

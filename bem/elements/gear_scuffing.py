@@ -177,3 +177,18 @@ def sliding_power(element: Element, friction: float) -> float:
     """Return the friction power of the gear mesh [W] under one friction coefficient at all places."""
     found = element.found
     return friction * found.mean(lambda one: one.load * abs(one.speeds[0] - one.speeds[1])) * found.at_once
+
+
+def tooth_loss_power(model: GearModel, friction: float) -> float:
+    """Return the friction power of the gear mesh [W] by the tooth loss factor of textbooks, P mu H_v.
+
+    H_v = pi (u + 1) / (z1 u cos(beta_b)) (1 - eps_alpha + eps_1^2 + eps_2^2), eps_1 and eps_2 the parts of the contact
+    ratio from C to E and from A to C: each of two pairs carries half of the load, of helical teeth as of spur ones
+    (Niemann and Winter, Maschinenelemente, Band 2; Ohlendorf's factor as textbooks print it). `sliding_power` has the
+    load shared as the films have it.
+    """
+    path, (pinion, wheel) = path_of_contact(model), model.teeth
+    leaving, approaching = (path.end - path.pitch) / path.base_pitch, (path.pitch - path.start) / path.base_pitch
+    factor = math.pi * (1 + pinion / wheel) / (pinion * math.cos(path.base_helix))
+    factor *= 1 - leaving - approaching + leaving**2 + approaching**2
+    return model.pinion_torque * model.speed * friction * factor

@@ -33,6 +33,14 @@ SPEED_IN_TURNS = define(
     "",
     'Write "{rpm:.6g} rpm".',
 )
+BODIES_COLDER = define(
+    "bodies-colder-than-oil",
+    CAUTION,
+    "The bodies, at {bulk:.3g} °C, are colder than the oil, at {oil:.3g} °C.",
+    "Oil comes into the contacts as cold as the bodies: films are thicker and safeties larger than with bodies that "
+    "friction warms above the oil.",
+    "Check bulk_temperature, or leave it out.",
+)
 KAPPA_ABOVE_FILM = define(
     "kappa-above-film",
     CAUTION,

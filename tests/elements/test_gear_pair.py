@@ -12,7 +12,7 @@ from bem.elements.answer import answer, balance_heat, friction_power, likely_pow
 from bem.elements.element import element_template, load_element, unusual_values_named
 from bem.elements.element_wear import worn_volume_rate
 from bem.elements.gear_pair import GearModel, path_of_contact
-from bem.elements.gear_scuffing import mean_flash_temperature, sliding_power
+from bem.elements.gear_scuffing import mean_flash_temperature, sliding_power, tooth_loss_power
 from bem.elements.running import Running, operating_places, run_contact
 from bem.errors import Status
 
@@ -416,11 +416,7 @@ def test_the_fit_to_gear_tests_names_its_load_sharing(helix, over, words):
     oil = {"grade": "ISO VG 150", "temperature": "80 degC"}
     gears = {"module": "3 mm", "teeth": [20, 41], "face_width": "25 mm", "torque": "150 N*m", "speed": "3000 rpm"}
     element = made(**gears, helix_angle=f"{helix} deg", oil=oil, rms_roughness="700 nm", points=5)
-    model, path = element.model, path_of_contact(element.model)
-    first, second = (path.end - path.pitch) / path.base_pitch, (path.pitch - path.start) / path.base_pitch
-    factor = math.pi * (1 + 20 / 41) / (20 * math.cos(path.base_helix))
-    factor *= 1 - first - second + first**2 + second**2
-    assert model.pinion_torque * model.speed * factor / sliding_power(element, 1.0) == pytest.approx(over, abs=0.005)
+    assert tooth_loss_power(element.model, 1.0) / sliding_power(element, 1.0) == pytest.approx(over, abs=0.005)
     said = dict(answer(element, [run_contact(element, element.worst())]))["friction power"]
     assert "W by a fit to gear tests (Schlenk, mean friction coefficient 0.04" in said
     assert f") with the load {words}" in said
@@ -452,3 +448,18 @@ def test_a_balance_of_gears_by_the_fit_to_gear_tests_solves_no_film(monkeypatch)
     rise = found.model.bulk_temperature - 293.15
     assert rise == pytest.approx(likely_power(found, ()) / 30, abs=0.2)
     assert rise > 1
+
+
+def test_bodies_colder_than_the_oil_are_named():
+    """Safeties with them are too large; a balance and bodies warmer than the oil are no reason."""
+    oil = {"grade": "ISO VG 100", "temperature": "70 degC"}
+
+    def told(**changes):
+        return any(note.code == "bodies-colder-than-oil" for note in made(oil=oil, **changes).notes())
+
+    assert told(bulk_temperature="40 degC")
+    assert not told(bulk_temperature="90 degC")
+    assert not told()
+    balanced = balance_heat(made(oil=oil, rms_roughness="500 nm",
+                                 heat_balance={"conductance": "30 W/K", "ambient": "20 degC"}))  # fmt: skip
+    assert not any(note.code == "bodies-colder-than-oil" for note in balanced.notes())
