@@ -111,7 +111,7 @@ def read(
     new_file(out, "OUT", (".npz",))
     surface = _read(file, _Reading(detrend, fill, channel, spacing, height_unit, despike, level_lines))
     path = write_surface(out, surface)
-    _show(surface, file.name)
+    _show(surface, file.name, despike)
     print_written(path)
 
 
@@ -153,9 +153,9 @@ def describe(
         new_file(figure, "--figure", (".png", ".pdf", ".svg"))
     surfaces = _read_several(files, _Reading(detrend, fill, channel, spacing, height_unit, despike, level_lines))
     if len(files) == 1:
-        _print_json(files[0], surfaces[0]) if json else _show(surfaces[0], files[0].name)
+        _print_json(files[0], surfaces[0]) if json else _show(surfaces[0], files[0].name, despike)
     else:
-        _show_measurements(files, surfaces, json=json)
+        _show_measurements(files, surfaces, despike, json=json)
     if figure is None:
         return
     from bem.plots.surface import draw_measurements, draw_surface
@@ -282,7 +282,8 @@ def _read_several(files: list[Path], options: _Reading) -> list[Surface]:
     return [_read(file, own_scale if own else options) for file, own in zip(files, stated, strict=True)]
 
 
-def _show(surface: Surface, name: str) -> None:
+def _show(surface: Surface, name: str, despike: float | None = None) -> None:
+    """Print a surface as a table, below what makes it doubtful; `despike` : with which it was read."""
     import math
 
     from bem.cli._terminal import table
@@ -292,7 +293,7 @@ def _show(surface: Surface, name: str) -> None:
     from bem.surfaces.measurements import finite_size_of, periodic_axes
 
     d = describe_surface(surface.heights, surface.spacing, periodic=periodic_axes(surface))
-    _doubts(surface)
+    _doubts(surface, despike)
     error = finite_size_of(surface)
     told = surface.metadata.get("spacing_in_file")
 
@@ -323,9 +324,10 @@ def _show(surface: Surface, name: str) -> None:
         ("autocorrelation length, y", metres(d.autocorrelation_length_y)),
         *_functional_rows(surface),
     ]
-    for key, words in (("missing_points", "points filled"), ("spikes", "spikes taken out")):
-        if surface.metadata.get(key):
-            rows.append((words, str(surface.metadata[key])))
+    if surface.metadata.get("missing_points"):
+        rows.append(("points filled", str(surface.metadata["missing_points"])))
+    if surface.metadata.get("spikes") or despike is not None:
+        rows.append(("spikes taken out", str(surface.metadata.get("spikes", 0))))
     table(("figure", "value"), rows, title=name)
     if any(words == _HURST and "±" in value for words, value in rows):
         print(f"± of the {_HURST}: standard deviation over maps of this size, by the scatter of the spectrum's rings.")
@@ -337,27 +339,37 @@ def _show(surface: Surface, name: str) -> None:
                 f"These are few patches (below {FEWEST_PATCHES}): lone heights or waves as long as the map decide Sq, "
                 "and a larger map may have a larger one. Remove spikes, measure a larger area, or filter waviness out."
             )
-    _hints(surface)
 
 
-def _doubts(surface: Surface, name: str = "") -> None:
-    """Print what makes the figures doubtful: spikes first, then the unit of heights, judged without them."""
+def _doubts(surface: Surface, despiked: float | None, name: str = "") -> None:
+    """Print what makes the figures doubtful: spikes, the unit of heights judged without them, and points filled.
+
+    despiked : standard deviations with which the surface was read; None where spikes were left.
+    name : of the file, where there are several.
+    """
     from bem.cli._terminal import print_text
     from bem.quantities import counted
-    from bem.surfaces import describe_surface
-    from bem.surfaces.filter import MOST_SPIKES, count_spikes, despike, fill_missing
+    from bem.scenes.maps import filled_note
+    from bem.surfaces import describe_surface, despike, fill_missing
+    from bem.surfaces.spikes import SPIKE, spikes_of
 
-    heights = surface.heights
-    spikes = 0 if surface.metadata.get("spikes") else count_spikes(heights, surface.spacing)
-    if 0 < spikes < MOST_SPIKES * heights.size:
-        of = f"{name}: " if name else ""
+    heights, of = surface.heights, f"{name}: " if name else ""
+    spikes = spikes_of(surface, despiked or SPIKE)
+    if spikes:
+        points = counted(spikes, "point")
         print_text(
-            f"caution: {of}{counted(spikes, 'point')} more than 6 standard deviations off the neighbours: spikes of "
-            "the instrument? --despike 6 removes them."
+            f"caution: {of}{points} more than {SPIKE:g} standard deviations off the neighbours: spikes of the "
+            f"instrument? --despike {SPIKE:g} removes them."
+            if despiked is None
+            else f"caution: {of}{points} still more than {despiked:g} standard deviations off the neighbours after "
+            "despiking. Look at them with bem surface plot."
         )
-        heights = fill_missing(despike(heights, surface.spacing), surface.spacing)
+        heights = fill_missing(despike(surface.measured_heights, surface.spacing), surface.spacing)
     found = describe_surface(heights, surface.spacing)
     _print_doubt(found.Sq, found.Sdq, name)
+    filled = filled_note(name, surface)
+    if filled is not None:
+        print_text(f"caution: {filled}")
 
 
 def _print_doubt(rms_height: float, rms_slope: float, name: str = "") -> None:
@@ -368,17 +380,6 @@ def _print_doubt(rms_height: float, rms_slope: float, name: str = "") -> None:
     note = height_unit_note(name, rms_height, rms_slope)
     if note is not None:
         print_text(f"caution: {note}")
-
-
-def _hints(surface: Surface, name: str = "") -> None:
-    """Print what an expert would doubt of a map; `name` : of its file, where there are several."""
-    of = f"{name}: " if name else ""
-    filled = float(surface.metadata.get("missing_points", 0) or 0) / surface.heights.size
-    if filled > 0.1:
-        print(
-            f"{of}{filled:.0%} of the points were missing and filled smoothly: the real surface is rougher. Take a "
-            "part without holes, or measure again."
-        )
 
 
 _HURST = "Hurst exponent"
@@ -419,6 +420,8 @@ def _functional_rows(surface: Surface) -> list[tuple[str, str]]:
             rows.append((_HURST, f"{fit.hurst:.2f} ± {fit.hurst_error:.2f} ({between}; {decades})"))
             if math.isfinite(fit.rolloff_wavelength):
                 rows.append(("roll-off wavelength", si(fit.rolloff_wavelength, "m", digits=3)))
+            else:
+                rows.append(("roll-off wavelength", "none: the spectrum rises up to the longest waves"))
         else:
             how = "falls more steeply" if fit.hurst >= 1 else "is flatter"
             rows.append(("spectrum", f"no power law of self-affine surfaces, q^-4 to q^-2: it {how} (q: wavenumber)"))
@@ -448,7 +451,7 @@ _OF_SEVERAL = (
 """Parameters of several measurements: name, words, and how they are written."""
 
 
-def _show_measurements(files: list[Path], surfaces: list[Surface], *, json: bool) -> None:
+def _show_measurements(files: list[Path], surfaces: list[Surface], despike: float | None, *, json: bool) -> None:
     """Print means and scatter of several measurements, as a table or as JSON."""
     from bem.cli._terminal import table
     from bem.surfaces import describe_measurements
@@ -468,7 +471,7 @@ def _show_measurements(files: list[Path], surfaces: list[Surface], *, json: bool
         print(writer.dumps({"files": [str(file) for file in files], "parameters": parameters, "spectrum": spectrum}))
         return
     for file, surface in zip(files, surfaces, strict=True):
-        _doubts(surface, file.name)
+        _doubts(surface, despike, file.name)
     rows = []
     for name, words, how in _OF_SEVERAL:
         one = found.parameters.get(name)
@@ -503,8 +506,6 @@ def _show_measurements(files: list[Path], surfaces: list[Surface], *, json: bool
             f"Points lie {si(spacings[0], 'm', digits=3)} to {si(spacings[-1], 'm', digits=3)} apart: slopes and "
             "asperities follow the spacing. Compare the spectra (--figure)."
         )
-    for file, surface in zip(files, surfaces, strict=True):
-        _hints(surface, file.name)
 
 
 _DIGITS = (4, 2, 2, 4, 4)

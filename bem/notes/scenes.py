@@ -77,6 +77,9 @@ MAP_SYNTHETIC = define(
 
 # What was done to a measured surface
 _FILLED = "Points of the map were filled smoothly from their neighbours."
+_MUCH_FILLED = "{share:%} of the map was filled smoothly from neighbouring points."
+_MAY_BE_ROUGHER = "Instruments lose steep points first, so the real surface may be rougher."
+_OUTLIERS = "The measured map has outliers."
 _SEAMS = "Making the map periodic changed its heights by {share:%} of Sq."
 MAP_ALTERED = define(
     "map-altered",
@@ -88,18 +91,35 @@ MAP_ALTERED = define(
             "Despiking took out {points:count point} and filled the gaps smoothly from the neighbours.",
             headline="Spikes of the map were removed.",
         ),
+        "no-spikes": Reason(
+            "No point stands out from its neighbours by {threshold:g} standard deviations.",
+            headline="Despiking found no spikes in the map.",
+        ),
         "much": Reason(
-            "{share:%} were missing; instruments lose the steep ones, so the real surface is rougher.",
-            "Crop to a part without gaps, or measure again.",
+            _MAY_BE_ROUGHER,
+            "Measure again if its peaks and slopes decide the result.",
             CAUTION,
-            headline="Much of the map was filled smoothly from neighbouring points.",
+            headline=_MUCH_FILLED,
+        ),
+        "gaps": Reason(
+            _MAY_BE_ROUGHER,
+            "Most of the missing points lie side by side in gaps: crop to a part without them, or measure again.",
+            CAUTION,
+            headline=_MUCH_FILLED,
         ),
         "outliers": Reason(
             "It has {points:count point} more than 6 standard deviations off their neighbours and a kurtosis Sku of "
             "{kurtosis:.3g}: single points carry much of the load.",
             "Set despike = 6 in its surface, if they are spikes of the instrument.",
             CAUTION,
-            headline="The measured map has outliers.",
+            headline=_OUTLIERS,
+        ),
+        "outliers-left": Reason(
+            "After despiking, {points:count point} still stand out from their neighbours, and the kurtosis Sku is "
+            "{kurtosis:.3g}: single points carry much of the load.",
+            "Look at the map (bem surface plot), and crop it to a part without them if they are not of the surface.",
+            CAUTION,
+            headline=_OUTLIERS,
         ),
         "mirror": Reason(
             "It is mirrored, and symmetric about its seams: the patch holds {part} {copies} times, and load, area and "

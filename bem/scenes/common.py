@@ -526,7 +526,7 @@ class GeneratedSurface(Table):
 class MeasuredSurface(Table):
     """Measured surface from an instrument's file.
 
-    In this order: read, despiked, scan lines levelled, levelled, missing points filled, cropped to lengths around
+    In this order: read, scan lines levelled, despiked, levelled, missing points filled, cropped to lengths around
     `centre`, filtered, resampled to the grid, levelled again, made periodic (mirrored or seams closed), scaled to
     `rms_height`. A run's scene has the file's checksum: one that has changed since is refused.
     """

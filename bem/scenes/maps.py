@@ -86,6 +86,20 @@ def height_unit_note(where: str, rms_height: float, rms_slope: float) -> Note | 
     )
 
 
+MOST_FILLED = 0.03
+"""Share of filled points of a map above which the map is doubted."""
+
+
+def filled_note(where: str, surface: Surface) -> Note | None:
+    """Return the note on a map of which much is filled; None of others."""
+    from bem.surfaces.filter import points_in_gaps
+
+    if surface.filled is None or surface.filled_share <= MOST_FILLED:
+        return None
+    connected = points_in_gaps(surface.filled) > 0.5 * surface.filled.sum()
+    return MAP_ALTERED(where, share=surface.filled_share, reason="gaps" if connected else "much")
+
+
 @dataclass(frozen=True)
 class MapOnGrid:
     """A measured surface on a grid: heights [m], read-only where they are kept, and what had to be done to it."""
@@ -159,6 +173,8 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     spikes = int(found.metadata.get("spikes", 0) or 0)
     if spikes:
         note(MAP_ALTERED(name, points=spikes, reason="spikes"))
+    elif surface.despike is not None:
+        note(MAP_ALTERED(name, threshold=surface.despike, reason="no-spikes"))
     if surface.low_pass is not None:
         found = low_pass(found, surface.low_pass)
     if surface.high_pass is not None:

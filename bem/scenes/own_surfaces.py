@@ -261,7 +261,7 @@ def _scale_of(body: str, path: str, scale: MapScale) -> MapScale | None:
 def _read(body: str, path: str, folder: Path, scale: MapScale) -> MeasuredMap:
     """Read a map and choose what its table needs: form removal, and despiking where there are outliers."""
     from bem.surfaces import describe_surface, read_surface
-    from bem.surfaces.filter import MOST_SPIKES, count_spikes
+    from bem.surfaces.spikes import SPIKE, spikes_of
 
     surface = read_surface(path, detrend="curvature", **scale.read_arguments)
     name = Path(path).name
@@ -276,10 +276,9 @@ def _read(body: str, path: str, folder: Path, scale: MapScale) -> MeasuredMap:
     known = path if example_path(path) is not None else os.path.relpath(path, folder)
     table: dict[str, Any] = {"kind": "measured", "path": Path(known).as_posix(), **scale.keys}
     table["detrend"] = "curvature"
-    spikes = count_spikes(surface.heights, surface.spacing) / cells
-    if 0 < spikes < MOST_SPIKES:
-        table["despike"] = 6
-        surface = read_surface(path, detrend="curvature", despike=6, **scale.read_arguments)
+    if spikes_of(surface):
+        table["despike"] = round(SPIKE)
+        surface = read_surface(path, detrend="curvature", despike=SPIKE, **scale.read_arguments)
     source = validate(table | {"path": absolute(path, Path())}, MeasuredSurface)
     slope = describe_surface(surface.heights, surface.spacing).Sdq
     height = float(surface.heights.std())

@@ -2,10 +2,10 @@
 
 `generate` makes heights of a `spectrum` (`request` checks what is asked, `moments` imposes skewness and kurtosis),
 `processes` are statistics by how a surface is made, `marks` what a tool leaves, `read` opens an instrument's file by
-its `formats`, `filter` levels, despikes, fills, cuts and resamples, `seams` makes a map periodic, `describe` measures,
-with `material_ratio_curve` (Abbott curve), `self_affine` (Hurst exponent), `asperities` (summits and plasticity
-indices), `finite_size` (errors by the size of a map) and `measurements` (several maps); `examples` are two maps of our
-own.
+its `formats`, `spikes` finds the outliers of an instrument, `filter` levels, fills, cuts and resamples, `seams` makes a
+map periodic, `describe` measures, with `material_ratio_curve` (Abbott curve), `self_affine` (Hurst exponent),
+`asperities` (summits and plasticity indices), `finite_size` (errors by the size of a map) and `measurements` (several
+maps); `examples` are two maps of our own.
 Names are loaded when first used: planning a contact of smooth bodies costs no transforms and no splines.
 
 Sees grids and no contact. Verified in tests/surfaces: what is asked for is what `describe` finds, the same seed gives
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from bem.surfaces.filter import (
         MirrorWarning,
         crop,
-        despike,
         detrend,
         fill_missing,
         high_pass,
@@ -53,6 +52,7 @@ if TYPE_CHECKING:
     from bem.surfaces.read import read_surface, write_surface
     from bem.surfaces.seams import close_seams
     from bem.surfaces.self_affine import SelfAffineFit, fit_self_affine
+    from bem.surfaces.spikes import despike
     from bem.surfaces.surface import Surface
 
 __all__ = [
@@ -109,7 +109,6 @@ __getattr__ = loader(
         "filter": [
             "MirrorWarning",
             "crop",
-            "despike",
             "detrend",
             "fill_missing",
             "high_pass",
@@ -127,6 +126,7 @@ __getattr__ = loader(
         "processes": ["PROCESSES", "Process"],
         "read": ["read_surface", "write_surface"],
         "seams": ["close_seams"],
+        "spikes": ["despike"],
         "surface": ["Surface"],
     },
 )

@@ -169,10 +169,14 @@ class RadialSpectrum:
 
 
 def radial_spectrum(
-    heights: FloatArray, spacing: tuple[float, float], *, periodic: tuple[bool, bool] = (False, False)
+    heights: FloatArray | Surface,
+    spacing: tuple[float, float] | None = None,
+    *,
+    periodic: tuple[bool, bool] = (False, False),
 ) -> RadialSpectrum:
     """Radially averaged power spectral density of heights (nx, ny) [m] on cells of `spacing` [m].
 
+    The spacing is that of the surface where a `Surface` is given.
     Along free axes a Hann window hides the step from edge to edge; it is normalised to keep Sq^2. Rings are as wide as
     the coarser of the two wavevector steps and go up to the smaller of the two Nyquist wavenumbers.
 
@@ -182,7 +186,7 @@ def radial_spectrum(
     """
     from scipy import fft  # brings special functions along, and no scene asks for this
 
-    heights, spacing = check_map(heights, spacing)
+    heights, spacing = check_map(heights, spacing_of(heights, spacing))
     if min(heights.shape) < 4:
         raise InputError(f"heights: shape {heights.shape} must be at least (4, 4) for a radial spectrum")
     deviation = heights - heights.mean()

@@ -65,61 +65,6 @@ def trend(heights: FloatArray, *, curved: bool) -> FloatArray:
     return fitted
 
 
-LEAST_SPIKE = 3.0
-"""Smallest threshold of `despike`, in standard deviations: below it much of a sound surface would go."""
-
-
-def despike(heights: FloatArray, spacing: tuple[float, float], threshold: float = 6.0) -> FloatArray:
-    """Heights with the spikes of an instrument made missing (nan), for `fill_missing`.
-
-    A point is a spike where it differs from the median of the 5 x 5 points around it by more than `threshold` times
-    two standard deviations: that of this difference over the map, and that of these 25 points about their median. Both
-    are taken as 1.4826 times the median absolute value, so that spikes do not count in them (Hampel, *J. Am. Stat.
-    Assoc.* 69 (1974) 383). The second one leaves the summits of a smooth map, which differ from the median by their
-    curvature, as their neighbours do.
-
-    heights : (nx, ny) [m], nan where points are missing. threshold : at least 3; Gaussian roughness loses nothing at 6.
-
-    Raises
-    ------
-    InputError : heights that are no map, a threshold below 3.
-    """
-    from scipy.ndimage import distance_transform_edt, median_filter
-
-    if not (math.isfinite(threshold) and threshold >= LEAST_SPIKE):
-        raise InputError(f"despike: threshold {threshold!r} must be at least {LEAST_SPIKE:g} standard deviations")
-    heights, spacing = check_map(heights, spacing, missing=True)
-    known = ~np.isnan(heights)
-    if not known.any():
-        return heights
-    nearest = distance_transform_edt(~known, sampling=spacing, return_distances=False, return_indices=True)
-    whole = heights[tuple(nearest)]  # a point beside a hole is judged by what was measured around it
-    difference = np.abs(whole - median_filter(whole, size=5, mode="nearest"))
-    deviation = 1.4826 * float(np.median(difference[known]))
-    if deviation == 0:
-        return heights
-    spikes = known & (difference > threshold * deviation)
-    for rows in np.array_split(np.argwhere(spikes), math.ceil(int(spikes.sum()) / _POINTS_AT_ONCE) or 1):
-        ix, iy = rows.T
-        spikes[ix, iy] = difference[ix, iy] > threshold * _local_deviation(whole, rows)
-    return np.where(spikes, np.nan, heights)
-
-
-_POINTS_AT_ONCE = 1 << 16
-"""Points whose neighbourhoods are in memory together: 13 MB."""
-
-
-def _local_deviation(heights: FloatArray, points: np.ndarray) -> FloatArray:
-    """Return 1.4826 times the median absolute deviation of the 5 x 5 points around each point.
-
-    heights : (nx, ny), without missing points; its edges continue with their last value. points : (m, 2), indices.
-    """
-    around = np.lib.stride_tricks.sliding_window_view(np.pad(heights, 2, mode="edge"), (5, 5))
-    windows = around[points[:, 0], points[:, 1]].reshape(len(points), 25)
-    median = np.median(windows, axis=1, keepdims=True)
-    return np.asarray(1.4826 * np.median(np.abs(windows - median), axis=1))
-
-
 def level_lines(heights: FloatArray) -> FloatArray:
     """Remove the offset of each scan line, its median about the median of all points; missing points (nan) stay.
 
@@ -133,13 +78,16 @@ def level_lines(heights: FloatArray) -> FloatArray:
     return heights - np.where(measured, offsets - whole, 0.0)[None, :]
 
 
-MOST_SPIKES = 0.005
-"""Share of points that may be spikes of an instrument; more points that stand out are texture."""
+_GAP = 10
+"""Missing points side by side that make a gap; fewer are lone points, as noise leaves them."""
 
 
-def count_spikes(heights: FloatArray, spacing: tuple[float, float], threshold: float = 6.0) -> int:
-    """Return the number of points that `despike` would make missing."""
-    return int(np.count_nonzero(np.isnan(despike(heights, spacing, threshold)) & ~np.isnan(heights)))
+def points_in_gaps(missing: np.ndarray) -> int:
+    """Return how many of the missing points of a map (nx, ny) lie in connected gaps of ten and more."""
+    from scipy.ndimage import label
+
+    sizes = np.bincount(label(missing)[0].ravel())[1:]
+    return int(sizes[sizes >= _GAP].sum())
 
 
 def fill_missing(heights: FloatArray, spacing: tuple[float, float]) -> FloatArray:
@@ -219,8 +167,10 @@ def crop(surface: Surface, lengths: tuple[float, float], *, centre: tuple[float,
         counts.append(count)
     if messages:
         raise InputError(messages)
-    part = surface.heights[starts[0] : starts[0] + counts[0], starts[1] : starts[1] + counts[1]]
-    return surface.replace(part, cropped_from=surface.shape)
+    inside = tuple(slice(start, start + count) for start, count in zip(starts, counts, strict=True))
+    filled = None if surface.filled is None or not surface.filled[inside].any() else surface.filled[inside]
+    notes = {**surface.metadata, "cropped_from": surface.shape}
+    return Surface(surface.heights[inside], surface.spacing, notes, filled)
 
 
 def resample(

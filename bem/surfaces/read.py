@@ -28,9 +28,10 @@ from bem.grid import FloatArray
 from bem.memory import available_memory
 from bem.quantities import with_prefixes
 from bem.surfaces.examples import example_path
-from bem.surfaces.filter import DETRENDINGS, LEAST_SPIKE, despike, detrend, fill_missing, level_lines
+from bem.surfaces.filter import DETRENDINGS, detrend, fill_missing, level_lines
 from bem.surfaces.formats import SurfaceFormat, format_of
 from bem.surfaces.point_list import list_of_points
+from bem.surfaces.spikes import LEAST_SPIKE, despike
 from bem.surfaces.surface import Surface
 
 METRES = {name: float(f"1e{power}") for name, power in with_prefixes("m", "pnumk").items()} | {
@@ -105,12 +106,13 @@ def read_surface(
         for those in metres always (.npz, formats of your own); .npy and tables are in metres without.
     despike : take out points that stand out of their neighbourhood by more than so many standard deviations (at least
         3; 6 takes instruments' spikes and leaves roughness), before the map is levelled; see `bem.surfaces.despike`.
-    level_lines : remove the offset of each scan line (each iy), as scanning instruments leave it, before the map is
-        levelled; see `bem.surfaces.level_lines`.
+    level_lines : remove the offset of each scan line (each iy), as scanning instruments leave it, before spikes are
+        taken out and the map is levelled; see `bem.surfaces.level_lines`.
 
     Returns
     -------
-    Surface : heights (nx, ny) [m], spacing [m], metadata: file, format, channel, unit, missing_points, detrend, ...
+    Surface : heights (nx, ny) [m], spacing [m], metadata: file, format, channel, unit, missing_points, detrend, ...;
+        spikes (points that `despike` took out); and which points were filled.
 
     Raises
     ------
@@ -375,17 +377,18 @@ def _finish(
             "line leave --no-fill out) or crop the map with the instrument's software"
         )
     try:
+        if asked.level_lines:
+            heights = level_lines(heights)
         if asked.despike is not None:
             heights = despike(heights, cell, asked.despike)
             notes = {**notes, "spikes": int(np.isnan(heights).sum()) - missing}
-        if asked.level_lines:
-            heights = level_lines(heights)
+        filled = np.isnan(heights)
         heights = fill_missing(detrend(heights, cell, asked.detrend), cell)
     except InputError as problem:
         raise SurfaceFileError([f"{file}: {message}" for message in problem.messages]) from problem
     notes = {"file": file.name, **notes, "missing_points": missing, "detrend": asked.detrend}
     notes |= {"lines_levelled": True} if asked.level_lines else {}
-    return Surface(np.ascontiguousarray(heights), cell, notes)
+    return Surface(np.ascontiguousarray(heights), cell, notes, filled if filled.any() else None)
 
 
 def _read_registered(

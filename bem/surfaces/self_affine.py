@@ -21,6 +21,9 @@ _LEAST_DENSITY = 1e-12
 """Densities below this fraction of the highest are round-off or a filter, and end the fit."""
 _FEWEST_RINGS = 6
 """Rings that the sloping part of the fit needs at least."""
+_RISE = 6.0
+"""Standard deviations by which the longest waves may lie above the flat part of the fit: 1 % of 600 drawn surfaces with
+a plateau exceeded it (squared amplitudes of few waves are chi squared)."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +34,8 @@ class SelfAffineFit:
     ----------
     hurst : H; outside 0 to 1 the surface is not self-affine.
     hurst_error : its standard error: the standard deviation over maps of this size at other places of the surface.
-    rolloff_wavelength : 2 pi / q_r [m]; nan if the spectrum rises up to the longest waves of the map.
+    rolloff_wavelength : 2 pi / q_r [m]; nan without a flat part: if the spectrum rises up to the longest waves of the
+        map, or the longest waves lie well above the part that was fitted as flat.
     shortest_wavelength, longest_wavelength : range of the sloping part [m].
     misfit : rms deviation of the measured density from the fit, in decades, over the range of the fit.
     density : C0 [m^4].
@@ -54,9 +58,11 @@ class SelfAffineFit:
         return 0 < self.hurst < 1
 
     def at(self, wavenumber: FloatArray) -> FloatArray:
-        """Return the fitted density [m^4] at wavenumbers [rad/m]."""
+        """Return the fitted density [m^4] at wavenumbers [rad/m]; nan at longer waves than were fitted."""
         bend = 2 * math.pi / self.longest_wavelength
-        return np.asarray(self.density * (np.maximum(wavenumber, bend) / bend) ** (-2 * (1 + self.hurst)))
+        fitted = self.density * (np.maximum(wavenumber, bend) / bend) ** (-2 * (1 + self.hurst))
+        beyond = math.isnan(self.rolloff_wavelength) & (np.asarray(wavenumber) < bend * (1 - 1e-9))
+        return np.asarray(np.where(beyond, math.nan, fitted))
 
 
 def self_affine_fit_of_map(
@@ -77,12 +83,18 @@ def fit_self_affine(spectrum: RadialSpectrum) -> SelfAffineFit:
 
     A ring of m waves has a density that scatters by 1 / sqrt(m); half the waves of a ring mirror the others. Rings are
     weighted with m. For each ring as the bend the two constants follow from a linear system; the bend of the least
-    squares is taken. Waves shorter than four cells are left out, and those that a filter has removed.
+    squares is taken. Waves shorter than four cells are left out, and those that a filter has removed. Where the
+    longest waves lie well above the flat part, as of waviness or grooves, it is no plateau: there is no roll-off.
 
     Raises
     ------
-    InputError : too few rings for a slope, or a flat surface.
+    InputError : too few rings for a slope, a flat surface, or something else than a spectrum.
     """
+    if not hasattr(spectrum, "wavenumber"):
+        raise InputError(
+            f"fit_self_affine: {type(spectrum).__name__} is no spectrum; give radial_spectrum(surface), or "
+            "radial_spectrum(heights, spacing)"
+        )
     q, density = spectrum.wavenumber, spectrum.density
     highest = float(density.max(initial=0.0))
     used = (q <= _SHORTEST * q.max(initial=0.0)) & (density > _LEAST_DENSITY * highest)
@@ -97,15 +109,28 @@ def fit_self_affine(spectrum: RadialSpectrum) -> SelfAffineFit:
     level, slope, squares = _bent_line(x, y, weight, best)
     steep = np.maximum(x - x[best], 0.0)
     residual = y - (level + slope * steep)
+    scatter = 2 * spectrum.ring_correlation
+    flat = best > 0 and not _rises(density[:best] / math.exp(level), weight[:best], scatter)
     return SelfAffineFit(
         hurst=-slope / 2 - 1,
         hurst_error=_slope_error(x, weight, best, slope, squares, spectrum.ring_correlation) / 2,
-        rolloff_wavelength=float(2 * math.pi / q[best]) if best > 0 else math.nan,
+        rolloff_wavelength=float(2 * math.pi / q[best]) if flat else math.nan,
         shortest_wavelength=float(2 * math.pi / q[-1]),
         longest_wavelength=float(2 * math.pi / q[best]),
         misfit=float(np.sqrt(np.average(residual**2, weights=weight))) / math.log(10),
         density=math.exp(level),
     )
+
+
+def _rises(ratio: FloatArray, weight: FloatArray, scatter: float) -> bool:
+    """Return True if the longest waves lie well above the flat part of a fit.
+
+    ratio : densities of the rings beyond the bend over that of the flat part, longest waves first. weight : their
+    waves. scatter : variance of a mean of these ratios times its number of waves.
+    """
+    waves = np.cumsum(weight)
+    means = np.cumsum(weight * ratio) / waves
+    return bool(np.any(means > 1 + _RISE * np.sqrt(scatter / waves)))
 
 
 def _slope_error(

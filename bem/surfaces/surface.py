@@ -21,18 +21,21 @@ from bem.representation import readable
 class Surface(np.lib.mixins.NDArrayOperatorsMixin):
     """Heights (nx, ny) [m], positive out of the body, on cells of `spacing` (dx, dy) [m].
 
-    `metadata` says where the heights come from and what was done to them. The heights are a read-only copy.
+    `metadata` says where the heights come from and what was done to them. The heights are a read-only copy. `filled`
+    (nx, ny) is True where a height was missing or taken out and is filled from its neighbours; None where none is.
     `Surface.generate` and `Surface.read` make one; where heights are asked for it may stand for them
     (`solve_contact(-surface, ...)`, `np.std(surface)`), and what is computed of it is a plain array.
 
     Raises
     ------
-    InputError : heights that are not a finite, real map, or spacings that are not positive and finite.
+    InputError : heights that are not a finite, real map, spacings that are not positive and finite, or `filled` of
+        another shape.
     """
 
     heights: FloatArray
     spacing: tuple[float, float]
     metadata: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    filled: np.ndarray | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         heights, spacing = check_map(self.heights, self.spacing)
@@ -41,6 +44,12 @@ class Surface(np.lib.mixins.NDArrayOperatorsMixin):
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "spacing", spacing)
         object.__setattr__(self, "metadata", MappingProxyType(dict(self.metadata)))
+        if self.filled is not None:
+            filled = np.array(self.filled, dtype=bool)
+            if filled.shape != heights.shape:
+                raise InputError(f"filled: shape {filled.shape} must be that of the heights, {heights.shape}")
+            filled.flags.writeable = False
+            object.__setattr__(self, "filled", filled)
 
     @classmethod
     def generate(cls, grid: Grid, **asked: Any) -> Surface:
@@ -65,13 +74,23 @@ class Surface(np.lib.mixins.NDArrayOperatorsMixin):
         plain = [one.heights if isinstance(one, Surface) else one for one in inputs]
         return getattr(function, method)(*plain, **more)
 
-    def __reduce__(self) -> tuple[type[Surface], tuple[FloatArray, tuple[float, float], dict[str, Any]]]:
-        return Surface, (np.array(self.heights), self.spacing, dict(self.metadata))
+    def __reduce__(self) -> tuple[type[Surface], tuple[Any, ...]]:
+        return Surface, (np.array(self.heights), self.spacing, dict(self.metadata), self.filled)
 
     @property
     def shape(self) -> tuple[int, int]:
         """(nx, ny)."""
         return self.heights.shape[0], self.heights.shape[1]
+
+    @property
+    def filled_share(self) -> float:
+        """Share of the points that are filled from their neighbours."""
+        return 0.0 if self.filled is None else float(self.filled.mean())
+
+    @property
+    def measured_heights(self) -> FloatArray:
+        """Heights [m], nan where they are filled from their neighbours."""
+        return self.heights if self.filled is None else np.where(self.filled, np.nan, self.heights)
 
     @property
     def nbytes(self) -> int:
@@ -88,8 +107,10 @@ class Surface(np.lib.mixins.NDArrayOperatorsMixin):
         return Grid(self.shape, self.spacing, periodic=periodic)
 
     def replace(self, heights: FloatArray, *, spacing: tuple[float, float] | None = None, **notes: Any) -> Surface:
-        """Other heights of the same origin; `notes` are added to the metadata."""
-        return Surface(heights, self.spacing if spacing is None else spacing, {**self.metadata, **notes})
+        """Other heights of the same origin; `notes` are added to the metadata. On the same points `filled` stays."""
+        same = spacing is None and np.shape(heights) == self.shape
+        cell = self.spacing if spacing is None else spacing
+        return Surface(heights, cell, {**self.metadata, **notes}, self.filled if same else None)
 
 
 def spacing_of(heights: object, spacing: object) -> object:

@@ -194,7 +194,7 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     tab.drop(own)
     tab.wait_text("no height for 40 points")
     tab.type("despike", "6")
-    tab.wait_text("Despiking took out 13 points")
+    tab.wait_text("Despiking took out 12 points")
     tab.type("crop", "60 um")
     tab.wait_text("75 x 75")
     for detrend in ("none", "curvature"):  # levelled anew, and the statistics are those of the same from Python

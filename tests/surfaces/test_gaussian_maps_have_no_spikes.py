@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bem import Grid, generate_surface
-from bem.surfaces.filter import count_spikes, despike
+from bem.surfaces.spikes import count_spikes, despike
 
 GRID = Grid((128, 128), (1e-6, 1e-6), periodic=(True, True))
 LENGTHS = [1, 2, 3, 4, 5, 6, 8, 10, 12, 16]  # correlation lengths in cells

@@ -5,6 +5,7 @@ import pytest
 
 from bem.grid import Grid
 from bem.runs import plan_scene
+from bem.scenes.build import heights_of
 from bem.scenes.checks import examine, scene_warnings
 from bem.scenes.maps import read_map
 from bem.surfaces import Surface, generate_surface, level_lines, read_surface, write_surface
@@ -68,3 +69,26 @@ def test_a_scene_with_outliers_proposes_to_remove_them(despike, told):
     }
     notes = scene_warnings(examine(plan_scene(scene)[0]))
     assert sum("Set despike = 6" in note for note in notes) == told
+
+
+def test_a_scene_says_what_despiking_left_or_that_it_found_nothing(tmp_path):
+    """A tilted map lost none of its spikes by despike = 6, and no note said so."""
+    heights = np.random.default_rng(1).normal(0, 1e-8, (64, 64))
+    surface = {"kind": "measured", "path": str(tmp_path / "map.npz"), "despike": 6}
+    scene = {
+        "kind": "contact",
+        "lower": {"material": "steel-52100", "surface": surface},
+        "upper": {"material": "steel-52100"},
+        "grid": {"periodic": True},
+        "contact": {"mean_pressure": "20 MPa"},
+    }
+    write_surface(tmp_path / "map.npz", Surface(heights, (1e-6, 1e-6)))
+    notes: list = []
+    grid = Grid((64, 64), (1e-6, 1e-6), periodic=(True, True))
+    heights_of(plan_scene(scene)[0].lower.surface, grid, 1, notes.append)
+    assert any("No point stands out from its neighbours by 6 standard deviations" in note for note in notes)
+    heights[:3, 30:33] += 1e-6  # on the edge: one row goes, and then the next stands out
+    write_surface(tmp_path / "map.npz", Surface(heights, (1e-6, 1e-6)))
+    (said,) = (note for note in scene_warnings(examine(plan_scene(scene)[0])) if "After despiking" in note)
+    assert "3 points still stand out" in said
+    assert "Set despike" not in said

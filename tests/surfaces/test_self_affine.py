@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from bem import Grid, InputError, generate_surface
+from bem import Grid, InputError, Surface, generate_surface
 from bem.surfaces import detrend, fit_self_affine, radial_spectrum
 
 GRID = Grid((256, 256), (1e-7, 1e-7), periodic=(True, True))
@@ -25,10 +25,17 @@ def test_finds_the_exponent_and_the_rolloff_of_a_generated_surface(hurst, period
     assert found.shortest_wavelength == pytest.approx(4e-7, rel=0.05)
 
 
-def drawn_heights(seed, hurst, rolloff, cells, spacing):
-    """A map cut out of a Gaussian surface of twice its size, drawn by numpy: each wave has an amplitude of its own."""
+def drawn_heights(seed, hurst, rolloff, cells, spacing, elongation=1.0):
+    """A map cut out of a Gaussian surface of twice its size, drawn by numpy: each wave has an amplitude of its own.
+
+    elongation : by which waves are longer along y than along x.
+    """
     rng = np.random.default_rng(seed)
-    q = 2 * np.pi * np.hypot(np.fft.fftfreq(2 * cells, spacing)[:, None], np.fft.rfftfreq(2 * cells, spacing))
+    q = (
+        2
+        * np.pi
+        * np.hypot(np.fft.fftfreq(2 * cells, spacing)[:, None], elongation * np.fft.rfftfreq(2 * cells, spacing))
+    )
     amplitude = np.maximum(q * rolloff / (2 * np.pi), 1.0) ** -(1 + hurst)
     noise = rng.standard_normal((2 * cells, 2 * cells))
     return 1e-7 * np.fft.irfft2(np.fft.rfft2(noise) * amplitude, (2 * cells, 2 * cells))[:cells, :cells]
@@ -53,6 +60,33 @@ def test_a_cut_off_ends_the_fit_and_a_rise_to_the_longest_waves_has_no_rolloff()
     assert found.hurst == pytest.approx(0.5, abs=0.02)
     assert found.shortest_wavelength > 0.9e-6
     assert math.isnan(found.rolloff_wavelength)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_lay_above_the_flat_part_leaves_no_rolloff(seed):
+    """A plateau that the longest waves of a ground surface exceed seven to thirteen times was given as a roll-off."""
+    plain = fit_self_affine(radial_spectrum(drawn_heights(seed, 0.7, 1e-5, 128, 5e-7), (5e-7, 5e-7)))
+    assert 0.5e-5 < plain.rolloff_wavelength < 2e-5
+    assert np.isfinite(plain.at(np.array([1e5, 1e6]))).all()
+    found = fit_self_affine(radial_spectrum(drawn_heights(seed, 0.7, 2e-5, 128, 5e-7, elongation=8), (5e-7, 5e-7)))
+    assert math.isnan(found.rolloff_wavelength)
+    bend = 2 * math.pi / found.longest_wavelength
+    np.testing.assert_array_equal(np.isnan(found.at(np.array([0.5, 1, 2]) * bend)), [True, False, False])
+
+
+def test_nine_of_ten_drawn_surfaces_with_a_plateau_keep_their_rolloff():
+    maps = (detrend(drawn_heights(seed, 0.7, 2e-5, 100, 5e-7), (5e-7, 5e-7)) for seed in range(40))
+    kept = [math.isfinite(fit_self_affine(radial_spectrum(one, (5e-7, 5e-7))).rolloff_wavelength) for one in maps]
+    assert sum(kept) >= 36
+
+
+def test_a_surface_in_place_of_its_spectrum_is_refused_with_what_to_give():
+    surface = Surface(drawn_heights(0, 0.7, 1e-5, 64, 5e-7), (5e-7, 5e-7))
+    with pytest.raises(InputError, match=r"Surface is no spectrum; give radial_spectrum\(surface\)"):
+        fit_self_affine(surface)
+    assert fit_self_affine(radial_spectrum(surface)) == fit_self_affine(
+        radial_spectrum(surface.heights, surface.spacing)
+    )
 
 
 def test_a_gaussian_autocorrelation_is_not_self_affine():

@@ -74,7 +74,31 @@ def test_spikes_are_counted_and_their_removal_named(call, tmp_path):
     assert "--despike 6" in out
     code, out, _ = call("surface", "describe", tmp_path / "a.npz", "--detrend", "none", "--despike", "6")
     assert code == 0
-    assert "stand out" not in out
+    assert "caution" not in out
+    assert "spikes taken out" in out
+
+
+def test_what_is_left_after_despiking_is_said(call, tmp_path):
+    """Nothing was taken out of a tilted map read with --despike 6, and the caution sent to --despike 6."""
+    heights = np.random.default_rng(1).normal(0, 1e-8, (64, 64))
+    np.savez(tmp_path / "a.npz", heights=heights, spacing=(1e-6, 1e-6))
+    _, out, _ = call("surface", "describe", tmp_path / "a.npz", "--despike", "6")
+    assert out.split("spikes taken out")[1].split()[0] == "0"
+    heights[:3, 30:33] += 1e-6  # as wide as a spike, on the edge: one row goes, and then the next stands out
+    np.savez(tmp_path / "a.npz", heights=heights, spacing=(1e-6, 1e-6))
+    _, out, _ = call("surface", "describe", tmp_path / "a.npz", "--despike", "6")
+    assert out.split("spikes taken out")[1].split()[0] == "3"
+    assert "3 points still more than 6 standard deviations off the neighbours after despiking" in out
+
+
+def test_a_share_of_filled_points_is_said_as_in_a_plan(call, tmp_path):
+    heights = np.random.default_rng(1).normal(0, 1e-8, (64, 64))
+    heights[np.random.default_rng(2).random((64, 64)) < 0.05] = np.nan
+    np.savez(tmp_path / "a.npz", heights=heights, spacing=(1e-6, 1e-6))
+    _, out, _ = call("surface", "describe", tmp_path / "a.npz")
+    said = " ".join(out.split())
+    assert "% of the map was filled smoothly from neighbouring points" in said
+    assert "may be rougher" in said
 
 
 @pytest.mark.parametrize(("factor", "told"), [(1e6, True), (1.0, False), (1e-3, True)])

@@ -16,10 +16,9 @@ from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.surfaces_of import RoughSurface
 from bem.scenes.checks.words import times
 from bem.scenes.common import GeneratedSurface, MeasuredSurface
-from bem.scenes.maps import MOST_SEAM_CHANGE, covers, read_map
+from bem.scenes.maps import MOST_SEAM_CHANGE, covers, filled_note, read_map
 from bem.surfaces.describe import STEEPEST_SURFACE
 
-_FILLED = 0.03
 SPIKY_KURTOSIS = 10.0
 """Sku above which a map with outliers is doubted; 3 is Gaussian, honed liners have 5 to 9."""
 _POINTS = 32
@@ -75,9 +74,11 @@ def roughness_as_large_as_the_patch(facts: Facts) -> Iterator[Note]:
 @scene_check
 def much_of_the_map_is_filled(facts: Facts) -> Iterator[Note]:
     """Missing points are filled smoothly from their neighbours, and steep flanks are what instruments miss."""
-    for filled, _, surface in facts.worst_surfaces(lambda surface: surface.filled):
-        if filled > _FILLED:
-            yield MAP_ALTERED(f"{surface.body}.surface", share=filled, reason="much")
+    for _, _, surface in facts.worst_surfaces(lambda surface: surface.filled):
+        if isinstance(surface.table, MeasuredSurface):
+            note = filled_note(f"{surface.body}.surface", read_map(surface.table))
+            if note is not None:
+                yield note
 
 
 @scene_check
@@ -87,7 +88,9 @@ def outliers_of_the_instrument(facts: Facts) -> Iterator[Note]:
     for kurtosis, _, surface in facts.worst_surfaces(lambda surface: surface.kurtosis):
         if kurtosis > SPIKY_KURTOSIS and surface.spikes:
             where = f"{surface.body}.surface"
-            yield MAP_ALTERED(where, points=surface.spikes, kurtosis=kurtosis, reason="outliers")
+            despiked = isinstance(surface.table, MeasuredSurface) and surface.table.despike is not None
+            reason = "outliers-left" if despiked else "outliers"
+            yield MAP_ALTERED(where, points=surface.spikes, kurtosis=kurtosis, reason=reason)
 
 
 @scene_check

@@ -34,10 +34,10 @@ class RoughSurface:
     made : what it is and what was done to it, in short sentences.
     rms_height, rms_slope, correlation_length : of the heights on the grid [m, 1, m]; the length is where the
         autocorrelation falls to 1/e, nan where it does not within the grid.
-    filled : share of a measured map's points that were missing.
+    filled : share of a measured map's points that are filled from their neighbours.
     source_points : points of the measured map under the grid along x and y; None where generated.
     source_spacing : their distance [m].
-    spikes, kurtosis : points of a measured map that `despike` would remove, and Sku of the map; 0 where despiked.
+    spikes, kurtosis : points of a measured map that `despike` would remove, or has left, and Sku of the map.
     scaled : what heights were multiplied by to meet `rms_height`.
     seams : rms change of the heights by which the map was made periodic [m].
     """
@@ -215,15 +215,14 @@ def _described_map(body: str, table: MeasuredSurface, grid: Grid, content: str) 
     else:
         description = _described(found.heights, found.grid())
         done = ("Sq, slope and correlation length are those of the map as it was measured",)
-    missing, whole = _missing(found)
-    spikes, kurtosis = (0, 0.0) if table.despike is not None else _outliers(found)
+    spikes, kurtosis = _outliers(table, found)
     return RoughSurface(
         body,
         table,
         grid,
         (_origin(table, found), *(line.removeprefix(f"{Path(table.path).name}: ") for line in done)),
         *description,
-        filled=missing / whole,
+        filled=found.filled_share,
         seams=seams,
         source_points=points,
         source_spacing=found.spacing,
@@ -233,18 +232,13 @@ def _described_map(body: str, table: MeasuredSurface, grid: Grid, content: str) 
     )
 
 
-def _outliers(found: Surface) -> tuple[int, float]:
+def _outliers(table: MeasuredSurface, found: Surface) -> tuple[int, float]:
     """Number of outliers, and the kurtosis Sku."""
-    from bem.surfaces.filter import count_spikes
+    from bem.surfaces.spikes import SPIKE, spikes_of
 
     about = found.heights - found.heights.mean()
     variance = float((about**2).mean())
-    return count_spikes(found.heights, found.spacing), float((about**4).mean()) / variance**2 if variance > 0 else 0.0
-
-
-def _missing(found: Surface) -> tuple[float, float]:
-    missing = float(found.metadata.get("missing_points", 0) or 0)
-    return missing, max(float(found.shape[0] * found.shape[1]), missing, 1.0)
+    return spikes_of(found, table.despike or SPIKE), float((about**4).mean()) / variance**2 if variance > 0 else 0.0
 
 
 def _origin(table: MeasuredSurface, found: Surface) -> str:
@@ -257,9 +251,8 @@ def _origin(table: MeasuredSurface, found: Surface) -> str:
     words.append(f"instrument {name}" if name else "")
     words.append(f"{found.shape[0]} x {found.shape[1]} points at {times(found.spacing, 'm')}")
     words.append("" if table.detrend == "none" else f"levelled by {table.detrend}")
-    missing, whole = _missing(found)
     words.append("scan lines levelled" if table.level_lines else "")
-    words.append(f"{percent(missing / whole)} filled" if missing else "")
+    words.append(f"{percent(found.filled_share)} filled" if found.filled_share else "")
     words.append("" if table.crop is None else f"cropped to {times(table.crop, 'm')}")
     words.append("" if table.low_pass is None else f"waves under {si(table.low_pass, 'm')} removed")
     words.append("" if table.high_pass is None else f"waves over {si(table.high_pass, 'm')} removed")
