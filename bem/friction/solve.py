@@ -188,7 +188,7 @@ def _notes_on_arguments(setup: MixedSetup, speeds: tuple[float, float]) -> tuple
         "width": ("length of a body", setup.width),
         "speeds": ("speed", speeds),
         "hardness": ("hardness", setup.hardness),
-        "grid": ("cell of the grid", setup.grid.spacing),
+        "grid": ("cell of the grid", [setup.grid.spacing[axis] for axis in setup.grid.varying_axes]),
         "boundary_friction": ("friction", setup.boundary_law.constant),
     }
     return notes_on_arguments(arguments | lubricant_arguments(setup.lubricant) | body_arguments(setup.bodies))

@@ -126,7 +126,10 @@ def notes_on_growth(contact: FilmContact, wear_coefficient: float, initial_thick
         "contact.temperature": ("temperature", contact.temperature),
         "contact.friction": ("friction", contact.friction),
         "contact.speeds": ("speed", contact.speeds),
-        "contact.grid.spacing": ("cell of the grid", contact.grid.spacing),
+        "contact.grid.spacing": (
+            "cell of the grid",
+            [contact.grid.spacing[axis] for axis in contact.grid.varying_axes],
+        ),
         "contact.growth.activation_energy": ("barrier of growth", getattr(contact.growth, "activation_energy", None)),
         "contact.growth.activation_volume": ("activation volume", getattr(contact.growth, "activation_volume", None)),
     }

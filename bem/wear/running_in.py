@@ -207,7 +207,7 @@ def _notes_on_arguments(setup: WearSetup) -> tuple[Note, ...]:
         "load": ("load", setup.load),
         "friction": ("friction", setup.friction),
         "hardness": ("hardness", setup.hardness),
-        "grid.spacing": ("cell of the grid", setup.grid.spacing),
+        "grid.spacing": ("cell of the grid", [setup.grid.spacing[axis] for axis in setup.grid.varying_axes]),
     }
     return notes_on_arguments(arguments | body_arguments(setup.bodies))
 
