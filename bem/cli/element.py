@@ -87,6 +87,7 @@ def element(
     from bem.elements.plain_bush import PlainBushModel
     from bem.elements.scene_text import element_scene_text
     from bem.errors import InputError
+    from bem.notes.checks import YIELDS
     from bem.notes.elements import SURFACES_TOUCH
     from bem.results.atomic import write_text
     from bem.scenes.load import scene_from_table
@@ -104,7 +105,7 @@ def element(
     if scene is not None:
         new_file(scene, "--scene", (".toml",))
     if cases is not None:
-        _cases(file, cases, table, (scene, path, running, contacts, figure))
+        _cases(file, cases, table, (scene, path, running, contacts, figure), remarks=remarks)
         return
     loaded = load_element(file)
     tell_compiling(loaded)
@@ -152,6 +153,8 @@ def element(
     notes: Sequence[Note] = all_notes(found, runs)
     if made is not None and not runs and kind in (*MIXED, LIFE):
         notes = [note for note in notes if note.code != SURFACES_TOUCH.code]
+    if made is not None and not whole:  # the scene's own checks judge its place
+        notes = [note for note in notes if note.code != YIELDS.code or note.values["place"] == chosen.name]
     if remarks:
         for note in notes:
             print_text(f"  {note}")
@@ -172,8 +175,8 @@ def element(
         print(f"next:    bem plan {scene}; bem run {scene}")
 
 
-def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...]) -> None:
-    """A line for each case."""
+def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...], *, remarks: bool) -> None:
+    """A line for each case. remarks : whether notes are shown whole, with remarks."""
     from bem.cli._terminal import Terminal, print_text, print_written, show_warnings, table
     from bem.cli.run import tell_compiling
     from bem.elements.answer import PLACES, all_notes, balance_heat
@@ -207,8 +210,12 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
     for one, each in zip(cases, runs or [()] * len(cases), strict=True):
         every = all_notes(one, each)
         bush = isinstance(one.model, PlainBushModel)
-        told.append([note for note in every if bush or note.level is not Level.INFO])
-    show_warnings(notes_of_cases(told))
+        told.append([note for note in every if bush or remarks or note.level is not Level.INFO])
+    if remarks:
+        for note in notes_of_cases(told):
+            print_text(f"  {note}")
+    else:
+        show_warnings(notes_of_cases(told), remarks="--remarks shows them")
     if has_code(chain.from_iterable(told), SURFACES_TOUCH, BUSH_TOUCHES):
         print_text("For the scene of a row put its keys in FILE.")
     unnamed = [f"{read_element(file)['name']}-{number}" for number in range(1, len(cases) + 1)]
@@ -282,7 +289,8 @@ def _answer(found: Element, runs: Sequence[Running]) -> None:
     described = f", {found.model.description}" if found.model.description else ""
     speed = getattr(found.model, "speed", None)
     described += f", {plain_digits(rpm(speed), 4)} rpm" if speed else ""
-    table(("", ""), answer(found, runs), title=f"{found.model.name}: {found.model.element}{described}")
+    named = f"{found.model.name}: " if found.model.name != found.model.element else ""
+    table(("", ""), answer(found, runs), title=f"{named}{found.model.element}{described}")
     for sentence in found.found.geometry:
         print_text(sentence)
     count = len(found.found.contacts)
@@ -327,9 +335,10 @@ def _with_steady_film(found: Element, chosen: ElementContact, at: str, kind: str
         return chosen
     steady = found.thinnest_steady()
     if abs(steady.slide_roll_ratio) <= 2:
+        place = "highest pressure" if at == "worst" else "the thinnest film"
         print_text(
-            f"At the place {at} the surfaces run against each other, without a steady film: scene of the thinnest "
-            f"steady film, {place_words(found, steady)}."
+            f"At the place of {place} the surfaces run against each other, without a steady film: scene of the "
+            f"thinnest steady film, {place_words(found, steady)}."
         )
     return steady
 

@@ -537,7 +537,7 @@ def _marked(element: Element, runs: Sequence[Running]) -> list[tuple[str, str]]:
         said += [] if one.film_ratio is None else [f"lambda {one.film_ratio:.3g}"]
         said.append(f"film friction {abs(one.friction):.2g}")
         said += [] if one.oil is None else [f"oil {one.oil - ZERO_CELSIUS:.3g} °C"]
-        said += [] if one.surface is None else [f"surface {one.surface - ZERO_CELSIUS:.3g} °C"]
+        said += [] if one.surface is None else [f"hotter surface {one.surface - ZERO_CELSIUS:.3g} °C"]
         exact = abs(one.contact.place - place) < AT_MARK
         rows.append((f"at {mark}" if exact else f"near {mark}", ", ".join(said)))
     return rows
@@ -642,7 +642,7 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
         return f"{said}; {warmer}, as the surfaces roll without sliding"
     return (
         f"{said}; highest flash temperature {hottest.flash:.3g} K at {place_words(element, hottest.contact)} "
-        f"(Blok, with the film's friction){unsolved}"
+        f"(Blok, with the film's friction, one temperature for both surfaces){unsolved}"
     )
 
 

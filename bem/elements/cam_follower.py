@@ -97,7 +97,11 @@ class CamModel(ElementModel):
         notes = []
         if lost:
             notes.append(CONTACT_LOST(lost=lost, all=self.points, reason="follower"))
-        turns = [b.name for a, b in pairwise(found) if (a.mean_speed > 0) != (b.mean_speed > 0)]
+        turns = [
+            f"{math.degrees(a.place + (b.place - a.place) * a.mean_speed / (a.mean_speed - b.mean_speed)):.3g} deg"
+            for a, b in pairwise(found)
+            if (a.mean_speed > 0) != (b.mean_speed > 0)
+        ]
         if turns:
             notes.append(FILM_BY_SQUEEZE(angles=", ".join(turns), reason="follower"))
         if self.specific_wear_rate:

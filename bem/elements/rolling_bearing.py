@@ -217,7 +217,7 @@ class BearingModel(ElementModel):
                 if load > 0:
                     found.append(
                         ElementContact(
-                            f"{race.name}, {turned:.0f} deg", math.radians(turned), total,
+                            f"{race.name}, {round(turned, 1):g} deg", math.radians(turned), total,
                             (race.radius, 0.5 * self.diameter), (rolling, rolling), race.across, self.length,
                             slices=() if self.slices is None else self.slices.along(number, total),
                         )
