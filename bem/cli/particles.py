@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from bem.cli._map_files import Reading, options_of, read_map
+
 if TYPE_CHECKING:
     from bem.particles import Particle
 
@@ -48,10 +50,9 @@ def particles(
       bem particles plate.spm
       bem particles plate.npz --threshold "30 nm" --table particles.csv --figure particles.png
     """
-    from bem.cli._quantity import length, new_file, pair_of_lengths
+    from bem.cli._quantity import length, new_file
     from bem.cli._terminal import print_written
     from bem.particles import particles_from_height_map
-    from bem.surfaces import read_surface
 
     for path, option, endings in (
         (table_out, "--table", (".csv",)),
@@ -64,24 +65,19 @@ def particles(
     smallest = length(smallest_radius, "--smallest-radius")
     assert height is not None
     assert smallest is not None
-    surface = read_surface(
-        map_,
-        detrend="none",
-        channel=int(channel) if channel is not None and channel.isdigit() else channel,
-        spacing=pair_of_lengths(spacing, "--spacing"),
-        height_unit=height_unit,
-    )
-    found = particles_from_height_map(
-        surface.heights,
-        surface.spacing,
-        threshold=height,
-        background=background,
-        level_lines=level_lines,
-        separate=separate,
-        border=border,
-        rectangle=rectangle,
-        smallest_radius=smallest,
-    )
+    surface = read_map(map_, Reading("none", True, channel, spacing, height_unit, None, False))
+    with options_of("particles_from_height_map"):
+        found = particles_from_height_map(
+            surface.heights,
+            surface.spacing,
+            threshold=height,
+            background=background,
+            level_lines=level_lines,
+            separate=separate,
+            border=border,
+            rectangle=rectangle,
+            smallest_radius=smallest,
+        )
     if found:
         _show(found, map_.name)
     else:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+from bem.cli._map_files import Reading, options_of, read_map
 
 if TYPE_CHECKING:
     from bem.surfaces import Surface
@@ -83,10 +85,10 @@ def generate(
         "skewness": skewness,
         "kurtosis": kurtosis,
     }
-    try:
+    if (correlation is None) == (hurst is None):
+        raise InputError("give exactly one of --correlation-length and --hurst")
+    with options_of("generate_surface"):
         surface = Surface.generate(grid, **asked)
-    except InputError as error:
-        raise InputError([message.removeprefix("generate_surface: ") for message in error.messages]) from None
     path = write_surface(out, surface)
     _show(surface, path.name)
     print_written(path)
@@ -109,7 +111,7 @@ def read(
     from bem.surfaces import write_surface
 
     new_file(out, "OUT", (".npz",))
-    surface = _read(file, _Reading(detrend, fill, channel, spacing, height_unit, despike, level_lines))
+    surface = read_map(file, Reading(detrend, fill, channel, spacing, height_unit, despike, level_lines))
     path = write_surface(out, surface)
     _show(surface, file.name, despike)
     print_written(path)
@@ -151,7 +153,7 @@ def describe(
 
     if figure is not None:
         new_file(figure, "--figure", (".png", ".pdf", ".svg"))
-    surfaces = _read_several(files, _Reading(detrend, fill, channel, spacing, height_unit, despike, level_lines))
+    surfaces = _read_several(files, Reading(detrend, fill, channel, spacing, height_unit, despike, level_lines))
     if len(files) == 1:
         _print_json(files[0], surfaces[0]) if json else _show(surfaces[0], files[0].name, despike)
     else:
@@ -203,7 +205,7 @@ def plot(
     from bem.cli._terminal import print_written
 
     new_file(out, "OUT", (".png", ".pdf", ".svg"))
-    surface = _read(file, _Reading(detrend, fill, channel, spacing, height_unit, despike, level_lines))
+    surface = read_map(file, Reading(detrend, fill, channel, spacing, height_unit, despike, level_lines))
     from bem.plots.surface import draw_surface
     from bem.surfaces.measurements import periodic_axes
 
@@ -211,66 +213,7 @@ def plot(
     print_written(out)
 
 
-@dataclass(frozen=True)
-class _Reading:
-    """Options of reading a file, as they are given on the command line; None for the default of the file."""
-
-    detrend: str | None
-    fill: bool
-    channel: str | None
-    spacing: str | None
-    height_unit: str | None
-    despike: float | None
-    level_lines: bool
-
-
-def _read(file: Path, options: _Reading) -> Surface:
-    """Read a surface in metres.
-
-    Raises
-    ------
-    InputError : a file that cannot be read, or one whose scale neither it nor the options state.
-    """
-    from bem.cli._quantity import spacing_of_points
-    from bem.errors import InputError
-    from bem.surfaces import read_surface
-    from bem.surfaces.read import UnstatedScaleError, slope_in_metres, states_scale, unit_judged_by_caller
-
-    sides, channel = spacing_of_points(options.spacing, "--spacing"), options.channel
-    chosen = int(channel) if channel is not None and channel.isdigit() else channel
-    try:
-        with unit_judged_by_caller():  # which is refused below
-            surface = read_surface(
-                file,
-                # a plain map is a surface already: levelling it again would change its statistics and open its seams
-                detrend=options.detrend or ("none" if file.suffix.lower() == ".npz" else "plane"),
-                fill=options.fill,
-                channel=chosen,
-                spacing=sides,
-                height_unit=options.height_unit,
-                despike=options.despike,
-                level_lines=options.level_lines,
-            )
-    except UnstatedScaleError as error:
-        wants = {
-            "how far its points are apart": None if sides else '--spacing "0.5 um"',
-            "in which unit its heights are": None if options.height_unit else "--height-unit nm",
-        }
-        missing = {words: option for words, option in wants.items() if option is not None} or wants
-        raise InputError(
-            f"{file.name}: does not say {', or '.join(missing)}; give {' '.join(map(str, missing.values()))}"
-        ) from error
-    if sides is not None and options.height_unit is None and not states_scale(file, chosen):
-        slope = slope_in_metres(surface)
-        if slope is not None:
-            raise InputError(
-                f"{file.name}: does not say in which unit its heights are, and in metres they would have an rms slope "
-                f"of {slope:.2g}; give --height-unit, such as nm or um"
-            )
-    return surface
-
-
-def _read_several(files: list[Path], options: _Reading) -> list[Surface]:
+def _read_several(files: list[Path], options: Reading) -> list[Surface]:
     """Read maps; spacing and unit of heights are for the files that do not say them, if there are any."""
     from bem.surfaces.read import states_scale
 
@@ -279,7 +222,7 @@ def _read_several(files: list[Path], options: _Reading) -> list[Surface]:
         stated = [states_scale(file) for file in files]
         stated = [one and not all(stated) for one in stated]
     own_scale = replace(options, spacing=None, height_unit=None)
-    return [_read(file, own_scale if own else options) for file, own in zip(files, stated, strict=True)]
+    return [read_map(file, own_scale if own else options) for file, own in zip(files, stated, strict=True)]
 
 
 def _show(surface: Surface, name: str, despike: float | None = None) -> None:

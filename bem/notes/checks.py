@@ -494,24 +494,23 @@ NOT_SETTLED = define(
     "the figures of the end are those of this number of cycles.",
     "Raise cycles.count, or read the curves over cycles.",
 )
+SETTLING_UNJUDGED = define(
+    "settling-unjudged",
+    CAUTION,
+    "The cycles are too few to judge whether they have settled.",
+    "The roughness of the moving body meets the same roughness again every {turn} cycles, one turn, and the run has"
+    " {cycles}: within a turn figures change with its place as they do with wear.",
+    "Set cycles.count = {count} (two turns) or more{averaged}.",
+)
 FRICTION_SWINGS = define(
     "friction-swings",
     CAUTION,
     "Friction swings with the place of the moving roughness.",
-    reasons={
-        "turns": Reason(
-            "Mean friction is {first:.4g} over the first whole turn of {turn} cycles and {last:.4g} over the last one,"
-            " a turn until the roughness of the moving body is where it was;"
-            " friction_initial = {initial:.4g} is that of the first cycle, friction_run_in = {run_in:.4g} the mean of"
-            " the last {averaged}{of}.",
-            "Compare the means over whole turns, after which the same roughness meets again.",
-        ),
-        "short": Reason(
-            "The roughness of the moving body meets the same roughness again every {turn} cycles, one turn, and the run"
-            " has {cycles}: its place changes friction as wear does.",
-            "Set cycles.count = {count} (two turns) or more, and cycles.averaged = {turn} (one turn).",
-        ),
-    },
+    "Mean friction is {first:.4g} over the first whole turn of {turn} cycles and {last:.4g} over the last one,"
+    " a turn until the roughness of the moving body is where it was;"
+    " friction_initial = {initial:.4g} is that of the first cycle, friction_run_in = {run_in:.4g} the mean of"
+    " the last {averaged}{of}.",
+    "Compare the means of the first and the last whole turn, or set cycles.averaged = {turn}.",
 )
 LESS_THAN_A_PARTICLE = define(
     "less-than-a-particle",
@@ -519,8 +518,8 @@ LESS_THAN_A_PARTICLE = define(
     "The run wears less than one particle.",
     "All cycles together shed {number:.2g} particles of one body{of}: an expected number, worn volume over mean volume"
     " of a particle, and no count. Sizes are those of regions that would come off.",
-    "Read the particles per distance and per worn volume. At the rate of the last {window} cycles, {rate:.2g} a cycle,"
-    " about {cycles} cycles shed {wanted}: set cycles.count to that for a count; they take about {time}.",
+    "Read the particles per distance and per worn volume. A count of {wanted} would take about {cycles} cycles, about"
+    " {time}, at the rate of the last {window} cycles, {rate:.2g} a cycle.",
 )
 WEAR_OUTSIDE_REGION = define(
     "wear-outside-region",
@@ -562,7 +561,7 @@ WEAR_STEPS_LONG = define(
             OUTSIDE_MODEL,
         ),
         "error": Reason(
-            "The mean depth of {depth:si m}{of} is uncertain by about {part:%}, beside its error bar.",
+            "The deepest place, worn {depth:si m} deep{of}, is uncertain by about {part:%}, beside error bars.",
             "Take a shorter wear.criterion.distance, and raise cycles.count as much.",
         ),
     },

@@ -87,7 +87,7 @@ PIECES_IN_SOME_STEPS = define(
 MICROPITS_EARLY = define(
     "micropits-early",
     OUTSIDE_MODEL,
-    "Micropits form too early for the fatigue law to hold.",
+    "Only the micropitted share is invalid: micropits form too early.",
     "{share:%} of the surface fails within {cycles:.2g} cycles, by stresses that deform it plastically and so fall in "
     "later passes; the criterion holds above about {limit:g} cycles, and the built-in scene micropitting-rig gives "
     "more than 30 % where 1 % was measured (Morales-Espejel and Brizmer 2011).",

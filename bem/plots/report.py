@@ -25,6 +25,7 @@ from bem.plots.tables import (
     is_counted,
     is_error,
     is_list,
+    is_of_particles,
     is_place,
     is_rounding,
     is_second_name,
@@ -40,6 +41,7 @@ from bem.plots.tables import (
     window_of,
     with_scatter,
     within,
+    without_particles,
 )
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
@@ -91,6 +93,10 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
 
 NO_BAR = "(no error bar)"
 """Words behind a figure whose error is not known; a remark of the run says why."""
+
+
+NOT_COMPUTED = "not computed"
+"""Words for sizes and numbers of particles beside a wear law that gives none."""
 
 
 def status_words(summary: Mapping[str, Any]) -> str:
@@ -145,6 +151,8 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
         return name, f"{cells[0]} {sign}".rstrip()
     text, shown = spelled(name, value)
     text += reported_mean(name, summary) + window_of(name, summary)
+    if not value and is_of_particles(name) and without_particles(summary):
+        return text, NOT_COMPUTED
     if is_size_of_no_particles(name, value):
         return text, "-"
     if all(limited_by_hardness(name, summary)):

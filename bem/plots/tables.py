@@ -90,6 +90,7 @@ _LABELS = {
     "Sq_initial": "Sq of the worn body's contact region, initial",
     "Sq_final": "Sq of the worn body's contact region, final",
     "worn_depth": "worn depth of the contact region",
+    "largest_worn_depth": "worn depth of the deepest place of the surface",
     "particles_per_cycle": "particles per cycle of one body",
     "particles_per_distance": "particles per sliding distance, of one body",
     "particles_per_volume": "particles per worn volume",
@@ -697,6 +698,17 @@ _SIZES = re.compile(
 def is_size_of_no_particles(name: str, value: Any) -> bool:
     """Return True for a mean size of particles that is zero: no particle was found, so there is no size to show."""
     return _SIZES.match(name) is not None and isinstance(value, int | float) and value == 0
+
+
+def is_of_particles(name: str) -> bool:
+    """Return True for a mean size or a number of particles."""
+    return _SIZES.match(name) is not None or name.startswith(("particles_", "scattering_mean_"))
+
+
+def without_particles(summary: Mapping[str, Any]) -> bool:
+    """Return True for a run whose wear law gives no particles: their number is there, and has no value."""
+    number = summary.get("particles_per_cycle", 0.0)
+    return all(one is None for one in (number if isinstance(number, list) else [number]))
 
 
 def _cell(value: Any, factor: float = 1.0) -> str:

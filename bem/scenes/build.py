@@ -191,8 +191,10 @@ def traction_couples(lower: Body, upper: Body | None, friction: float | Law) -> 
     return friction != 0 and couples((lower,) if upper is None else (lower, upper))
 
 
-def check_surfaces(grid: Grid, **surfaces: AnySurface) -> None:
+def check_surfaces(grid: Grid, larger: str = "take a larger grid", **surfaces: AnySurface) -> None:
     """Refuse generated surfaces that cannot be had on the grid, before any work; by the names of their bodies.
+
+    larger : what makes the grid of the scene larger, in words.
 
     Raises
     ------
@@ -206,14 +208,29 @@ def check_surfaces(grid: Grid, **surfaces: AnySurface) -> None:
             try:
                 check_statistics(_drawn_on(surface, grid), **_statistics(surface))
             except InputError as error:
-                hint = f' (set by process = "{surface.process}" unless given)' if surface.process else ""
-                messages += [f"{name}.surface: {m.removeprefix('generate_surface: ')}{hint}" for m in error.messages]
+                messages += [_of_scene(m, f"{name}.surface", surface, larger) for m in error.messages]
             try:
                 marks_of(surface, grid, 0)
             except InputError as error:
                 messages += [f"{name}.surface.{m}" for m in error.messages]
     if messages:
         raise InputError(messages)
+
+
+def _of_scene(message: str, table: str, surface: GeneratedSurface, larger: str) -> str:
+    """Return a message of the generator with the remedies of a scene, and whether the process set what it is about."""
+    from bem.surfaces.processes import PROCESSES
+    from bem.surfaces.request import FINER, LARGER
+
+    said = message.removeprefix("generate_surface: ")
+    name = said.split(" ", 1)[0]
+    key = f"{table}.correlation_length"
+    said = said.replace(LARGER, f"{larger}, or shorten {key}").replace(FINER, f"take more cells, or lengthen {key}")
+    if surface.process is not None:
+        usual = PROCESSES[surface.process].keys(surface.lay or "y")
+        if name not in usual or getattr(surface, name, None) == usual[name]:
+            said += f' (set by process = "{surface.process}")'
+    return f"{table}: {said}"
 
 
 def _statistics(surface: GeneratedSurface) -> dict[str, Any]:

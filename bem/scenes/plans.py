@@ -30,14 +30,23 @@ CONVOLUTION = 3.2
 """Time of a convolution and what the contact solver does besides, in transforms: measured, 256 to 1024 cells."""
 
 
-def surfaces(grid: Grid, lower: build.AnySurface, upper: build.AnySurface, *, aside: bool = False) -> Step:
+def surfaces(
+    grid: Grid,
+    lower: build.AnySurface,
+    upper: build.AnySurface,
+    *,
+    aside: bool = False,
+    larger: str = "take a larger grid",
+) -> Step:
     """Heights of both bodies; `aside` where very large ones are put on disk once the gap between them is known.
+
+    larger : what makes the grid of the scene larger, in words.
 
     Raises
     ------
     InputError : surfaces that cannot be generated on the grid.
     """
-    build.check_surfaces(grid, lower=lower, upper=upper)
+    build.check_surfaces(grid, larger, lower=lower, upper=upper)
     rough = {name: s for name, s in (("lower", lower), ("upper", upper)) if s.kind != "smooth"}
     # a surface that is not Gaussian is found by iteration
     iterated = sum(s.kind == "generated" and (s.skewness, s.kurtosis) != (0.0, 3.0) for s in rough.values())
@@ -88,9 +97,17 @@ def traction_kernels(grid: Grid, lower: Body, upper: Body | None, friction: floa
 
 
 def of_bodies(
-    scene: Any, grid: Grid, friction: float | Law, depths: int = 0, *, aside: bool = False
+    scene: Any,
+    grid: Grid,
+    friction: float | Law,
+    depths: int = 0,
+    *,
+    aside: bool = False,
+    larger: str = "take a larger grid",
 ) -> tuple[Step, Step, Step]:
     """Heights of a scene's two bodies, the spectra of coated ones, and the kernels by which friction moves the gap.
+
+    aside, larger : of `surfaces`.
 
     Raises
     ------
@@ -98,7 +115,7 @@ def of_bodies(
     """
     lower, upper = scene.lower.build(), scene.upper.build()
     return (
-        surfaces(grid, scene.lower.surface, scene.upper.surface, aside=aside),
+        surfaces(grid, scene.lower.surface, scene.upper.surface, aside=aside, larger=larger),
         layered_kernels(grid, lower, upper, depths),
         traction_kernels(grid, lower, upper, friction),
     )

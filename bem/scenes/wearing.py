@@ -479,6 +479,15 @@ class WornRecord(RubbedRecord, ThirdBodyRecord):
             unjudged=True,  # one cell's, told to compare with the strength
         ),
     ] = None
+    largest_worn_depth: Annotated[
+        float | None,
+        Figure(
+            "nm",
+            "depth of the deepest cell of a body worn by pressure, of the shown rows",
+            optional=True,
+            unjudged=True,  # one cell's, told to compare with the error of the step
+        ),
+    ] = None
     cycle: Annotated[IntArray, Series(("cycle",), "1", "cycle")]
 
 
@@ -521,10 +530,13 @@ class WornSurface:
         before, after = before[: grid.shape[0]], after[: grid.shape[0]]
         figures = {
             "cycle": np.arange(1, len(cycles) + 1),
-            "particles_per_cycle": float(sizes_over_cycles(scene, result)[1][-len(settled) :].mean()),
+            "particles_per_cycle": float(sizes_over_cycles(scene, result)[1][-len(settled) :].mean())
+            if scene.wear.finds_particles.needs_strength
+            else None,
             "convolutions_per_cycle": float(cycles["convolutions"].mean()),
             "truncated_particles": int(late["truncated"].sum()),
             "step_error": result.step_error,
+            "largest_worn_depth": None if result.step_error is None else float((before - after).max()),
             "criterion_wear_rate": criterion_wear_rate(
                 cycles[-last:],
                 load,

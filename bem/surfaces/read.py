@@ -345,9 +345,9 @@ def slope_in_metres(surface: Surface) -> float | None:
 
 def _without_spacing(file: Path) -> UnstatedScaleError:
     return UnstatedScaleError(
-        f"{file}: does not say how far its points are apart; give spacing=(dx, dy) in metres and height_unit "
-        "(`bem surface read FILE FILE.npz --spacing ... --height-unit ...` writes a file that has both; in a scene, "
-        "spacing and height_unit of the surface)"
+        f"{file}: does not say how far its points are apart; give spacing and height_unit (in a scene keys of the "
+        'surface; on the command line --spacing "0.5 um" --height-unit nm; in Python spacing=(5e-7, 5e-7) in metres '
+        'and height_unit="nm")'
     )
 
 

@@ -88,6 +88,10 @@ def _check_height(request: Request, messages: list[str]) -> None:
         messages.append(f"seed {seed!r} must be an integer >= 0")
 
 
+FINER, LARGER = "take more cells, or another one", "take a larger grid, or another one"
+"""What to do about a correlation length that a grid cannot have."""
+
+
 def _check_correlation(grid: Grid, request: Request, messages: list[str]) -> None:
     length, hurst = request.correlation_length, request.hurst
     if (length is None) == (hurst is None):
@@ -120,10 +124,8 @@ def _check_lengths(grid: Grid, pair: tuple[Any, ...] | list[Any], messages: list
             for values in (pair, grid.spacing if short else halves)
         )
         along = " and ".join("xy"[i] for i in axes)
-        size, remedy = (
-            ("shorter than a cell", "more cells") if short else ("longer than half the grid", "a larger grid")
-        )
-        messages.append(f"correlation_length {length} along {along} is {size} ({limit}): take {remedy}, or another one")
+        size, remedy = ("shorter than a cell", FINER) if short else ("longer than half the grid", LARGER)
+        messages.append(f"correlation_length {length} along {along} is {size} ({limit}): {remedy}")
 
 
 def _check_band(grid: Grid, request: Request, messages: list[str]) -> None:

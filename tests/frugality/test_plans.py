@@ -174,6 +174,12 @@ def test_transforms_of_a_run_are_as_many_as_planned_within_a_factor_of_two(name)
         ("rough-contact", ["lower.surface.cutoff_wavelength=1 nm"], "below two cells"),
         ("running-in-stribeck", ["lower.surface.correlation_length=1 mm"], "half the grid"),
         ("wear-steel-steel", ["upper.surface.cutoff_wavelength=60 nm"], "below two cells"),
+        # kind wear has no table [grid]
+        (
+            "wear-steel-steel",
+            ['lower.surface={kind = "generated", rms_height = "0.1 um", correlation_length = "1 mm"}'],
+            r"raise domain\.[a-z_]+(| or the load), or shorten lower\.surface\.correlation_length",
+        ),
         ("stribeck-mineral-oil", ["lower.surface.cutoff_wavelength=0.5 um"], "below two cells"),
         ("running-in-stribeck", ["lower.surface.cutoff_wavelength=1 nm"], "below two cells"),
         ("tribofilm-macro", ["upper.surface.cutoff_wavelength=1 nm"], "below two cells"),

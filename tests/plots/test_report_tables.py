@@ -277,6 +277,10 @@ def test_sizes_of_no_particles_are_a_dash():
     assert table.rows == (("0.1", "–", "–"), ("1", "30", "–"))
     assert with_error("particle_length_nm", {"particle_length_nm": 0.0, "particle_length_nm_error": None})[1] == "-"
     assert with_error("particles_per_cycle", {"particles_per_cycle": 0.0})[1] == "0"
+    # beside a wear law that gives no particles
+    law = {"particles_per_cycle": [None], "volume_mean_radius_nm": [0.0], "particles_of": "lower"}
+    shown = ["not computed", "not computed", "lower"]
+    assert [with_error(name, law)[1] for name in law] == shown
 
 
 def test_points_of_a_sweep_are_rows_behind_the_swept_keys():

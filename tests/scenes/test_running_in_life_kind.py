@@ -160,6 +160,8 @@ def test_fatigue_counts_pits_of_either_body_and_goes_on():
     early = next(note for note in context.notes if note.code == "micropits-early")  # 4000 cycles in all
     assert early.level is Level.OUTSIDE_MODEL
     assert early.values["share"] == pytest.approx(record.micropitted_share)
+    # friction and wear beside it read as invalid, too
+    assert "outside the model: Only the micropitted share is invalid" in early
     again, _ = run(scene, PlainContext(3, resumed=True, state=context.state))
     assert np.array_equal(again.damage_map, record.damage_map)
     assert np.array_equal(again.micropitted_over_cycles, record.micropitted_over_cycles)

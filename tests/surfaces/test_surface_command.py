@@ -123,7 +123,7 @@ def test_measured(call, measured, tmp_path):
     ("arguments", "message"),
     [
         (("surface", "describe", "nothing.di"), "no such file"),
-        (("surface", "generate", "a.npz", *GENERATE), "exactly one of correlation_length"),
+        (("surface", "generate", "a.npz", *GENERATE), "exactly one of --correlation-length"),
         (("surface", "generate", "a.txt", *GENERATE, "--hurst", "0.8"), "ending"),
         (("surface", "generate", "a.npz", *GENERATE, "--hurst", "0.8", "--cutoff-wavelength", "1 N"), "not a length"),
         (("surface", "generate", "a.npz", *GENERATE, "--correlation-length", "1 um,2 um,3 um"), "two separated"),
@@ -191,11 +191,33 @@ def table(tmp_path):
     ],
 )
 def test_a_table_without_its_scale_is_refused_by_every_command(call, table, options, message):
-    for command in (("describe", table), ("read", table, table.with_suffix(".npz"))):
-        code, out, err = call("surface", *command, *options)
+    # `bem particles` asked for spacing=(dx, dy), which is Python
+    npz = table.with_suffix(".npz")
+    for command in (("surface", "describe", table), ("surface", "read", table, npz), ("particles", table)):
+        code, out, err = call(*command, *options)
         assert (code, out) == (2, "")
         assert message in err
     assert not table.with_suffix(".npz").exists()
+
+
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        (("particles", "--separate", "3"), "bem: --separate 3.0 must lie between 0 and 1\n"),
+        (("particles", "--border", "both"), "bem: --border 'both' is not one of exclude, include\n"),
+        (("surface", "describe", "--detrend", "plan"), "bem: --detrend 'plan' is not one of plane, curvature, none\n"),
+        (("surface", "describe", "--despike", "1"), "bem: --despike 1.0 must be at least 3 standard deviations\n"),
+    ],
+)
+def test_mistakes_are_said_of_the_options_and_not_of_the_library(call, table, command, message):
+    code, _, err = call(*command, table, "--spacing", "1 um", "--height-unit", "nm")
+    assert (code, err) == (2, message)
+
+
+def test_a_spectrum_is_asked_for_by_its_options(call, tmp_path):
+    surface = ("surface", "generate", tmp_path / "a.npz", "--cells", "64", "--spacing", "1 um", "--rms-height", "1 um")
+    assert call(*surface)[2] == "bem: give exactly one of --correlation-length and --hurst\n"
+    assert call(*surface, "--hurst", "2")[2].startswith("bem: --hurst 2.0 must lie")
 
 
 def test_a_scale_is_for_the_maps_that_do_not_say_it(call, table):

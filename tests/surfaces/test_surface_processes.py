@@ -129,6 +129,9 @@ def test_a_grid_too_small_for_a_process_is_said_before_any_work():
     surface = scene_of(process="ground").lower.surface
     with pytest.raises(InputError, match=r'correlation_length .*\(set by process = "ground"'):
         check_surfaces(Grid((64, 64), (1e-6, 1e-6)), lower=surface)
+    own = scene_of(process="superfinished", correlation_length="40 um").lower.surface
+    with pytest.raises(InputError, match=r"a larger grid, or shorten lower\.surface\.correlation_length$"):
+        check_surfaces(Grid((64, 64), (1e-6, 1e-6)), lower=own)
 
 
 def test_the_command_lists_them(monkeypatch, capsys):

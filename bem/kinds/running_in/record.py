@@ -118,7 +118,8 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
         ),
     ]
     particles_per_cycle: Annotated[
-        float, Figure("", f"particles per cycle of one body, {SETTLED}", headline=True, no_bar=pieces.FOLLOWS_CELL)
+        float | None,
+        Figure("", f"particles per cycle of one body, {SETTLED}", headline=True, no_bar=pieces.FOLLOWS_CELL),
     ]
     particles_per_distance: Annotated[
         float | None,
@@ -141,10 +142,10 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
         ),
     ]
     particles_first_cycle: Annotated[
-        float, Figure("", "particles of the first cycle, of one body", no_bar=pieces.FOLLOWS_CELL)
+        float | None, Figure("", "particles of the first cycle, of one body", no_bar=pieces.FOLLOWS_CELL)
     ]
     particles_last_cycles: Annotated[
-        float,
+        float | None,
         Figure(
             "", "number of particles of all of the last cycles.averaged cycles, of one body", no_bar=pieces.FOLLOWS_CELL
         ),

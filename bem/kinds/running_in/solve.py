@@ -113,7 +113,7 @@ def _record(
     number = over["particles_over_cycles"] = wearing.sizes_over_cycles(scene, result)[1]
     over |= wearing.particle_rates(scene, result, grid, number)
     over |= pieces.mean_radii(worn.late, scene.sizes, *_RADII)
-    hot = scene.thermal != "off"
+    hot, finds = scene.thermal != "off", scene.wear.finds_particles.needs_strength
     region = wearing.worn_region(scene, strip)[1]
     over["contact_region_width"] = width_of(region, grid)
     over["volume_outside_region"] = share_outside(worn.height_before, worn.height_after, region)
@@ -148,8 +148,8 @@ def _record(
         # the same number as `friction`, which is the sum of its two parts as in the kind `friction`; here it stands
         # beside `friction_initial`
         friction_run_in=figures.friction,
-        particles_first_cycle=float(number[0]),
-        particles_last_cycles=float(number[-averaged:].sum()),
+        particles_first_cycle=float(number[0]) if finds else None,
+        particles_last_cycles=float(number[-averaged:].sum()) if finds else None,
         frame=np.array(_frame_cycles(scene.cycles.count)[: len(own["pressure_frames"])]),
         **own,
     )

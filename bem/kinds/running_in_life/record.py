@@ -57,7 +57,8 @@ class RunningInLifeRecord(GridRecord):
         Figure("nm", "equivalent radius of the mean volume of pieces, over the life", optional=True, no_bar=_COUNTS),
     ]
     micropitted_share: Annotated[
-        float | None, Figure("", "share of the surface with a voxel without life left", optional=True, no_bar=_PITS)
+        float | None,
+        Figure("", "share of the surface with a voxel without life left", optional=True, no_bar=_PITS, headline=True),
     ]
     micropitted_at_most: Annotated[
         float | None,

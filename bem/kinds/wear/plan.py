@@ -34,8 +34,9 @@ def plan(scene: WearScene) -> Plan:
     solves = 1 if particles is None else _SHARING
     depths = {"usual": _DEPTHS_NEEDED, "first": _DEPTHS_AT_FIRST}
     cycles = {"convolutions": solves * _CONVOLUTIONS, "solves": solves, **depths}
+    larger = "raise domain.lengths" if scene.domain.lengths else "raise domain.half_widths or the load"
     return Plan.of(
-        *plans.of_bodies(scene, grid, scene.cylinder.friction, min(scene.depths.count, _DEPTHS_NEEDED)),
+        *plans.of_bodies(scene, grid, scene.cylinder.friction, min(scene.depths.count, _DEPTHS_NEEDED), larger=larger),
         *wearing.cycle_steps(
             scene, grid, contacts="each from the last pressure", friction=scene.cylinder.friction, **cycles
         ),

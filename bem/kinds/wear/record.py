@@ -31,7 +31,8 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
         *("first_cycles_radius", "criterion_wear_rate"),
     )
     particles_per_cycle: Annotated[
-        float, Figure("", f"particles per cycle of one body, {SETTLED}", headline=True, no_bar=pieces.FOLLOWS_CELL)
+        float | None,
+        Figure("", f"particles per cycle of one body, {SETTLED}", headline=True, no_bar=pieces.FOLLOWS_CELL),
     ]
     Sq_initial: Annotated[float, Figure("nm", f"Sq {_STRIP}, unworn", headline=True)]
     Sq_final: Annotated[float, Figure("nm", f"Sq {_STRIP}, after the last cycle", headline=True)]

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -433,9 +434,9 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """No particles in the settled cycles of a case: what they would have to be."""
     if not facts.of_kind("wear", "running-in"):
         return
-    counts = numbers(outcome.summary.get("particles_per_cycle"))
+    counts = [math.nan if one is None else one for one in _listed(outcome.summary.get("particles_per_cycle"))]
     if len(counts) != len(facts.cases):  # cases that are alike to the checks
-        counts = [max(counts, default=0.0)] * len(facts.cases)
+        counts = [max((one for one in counts if math.isfinite(one)), default=0.0)] * len(facts.cases)
     turned = outcome.summary.get("friction_first_turn") is not None  # whole turns of the roughness
     stresses = np.ravel(np.array(outcome.summary.get("largest_stress_Pa"), dtype=np.float64))
     stresses = stresses if len(stresses) == len(counts) else np.full(len(counts), np.nan)
@@ -509,6 +510,11 @@ def _what_it_takes(case: Case) -> str:
     return ""
 
 
+def _listed(value: Any) -> list[Any]:
+    """Return a figure of the summary as a list over cases; None stays at its place."""
+    return value if isinstance(value, list) else [] if value is None else [value]
+
+
 @outcome_check
 def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """A piece that reaches the last depth goes on below it."""
@@ -518,7 +524,7 @@ def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[Note
     if facts.scene.wear.particle_criterion is not None:  # told by the loop: numbers are those of the wear law
         return
     settled = facts.scene.cycles.settled
-    shares = [c / (n * settled) for c, n in zip(numbers(cut), numbers(number), strict=False) if n > 0]
+    shares = [c / (n * settled) for c, n in zip(_listed(cut), _listed(number), strict=False) if n]
     if shares and max(shares) > 0.02:
         coated = any("layer" in key for key in facts.materials)
         held = any(case.wear is not None and case.wear.within_layer for case in facts.cases)

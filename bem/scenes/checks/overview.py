@@ -157,7 +157,7 @@ def _column(case: Case) -> dict[str, str]:
             )
             share = max(2 * a / n for a, n in zip(semi_axes, grid.lengths, strict=True) if math.isfinite(a))
             found["contact over the grid's length"] = percent(share) if share <= 1 else f"{share:.2g} times its length"
-    if case.depths:
+    if case.depths and (case.wear is None or case.wear.finds_particles.needs_strength):  # a wear law asks for no stress
         deepest = f"{len(case.depths)} down to {si(case.depths[-1], 'm')}"
         steps = [b - a for a, b in zip(case.depths, case.depths[1:], strict=False)]
         found["depths"] = deepest + (f", steps {_range(steps, 'm')}" if steps else "")
