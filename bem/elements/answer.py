@@ -55,14 +55,18 @@ PLACES = 11
 """Films that are solved for an answer on one screen, beside marked and extreme contacts; `--running` solves all."""
 _LEAST_SCATTER = 0.005
 """Scatter of the friction power, over it, below which it is left out."""
-_LEAST_RATIO, _LEAST_RATIO_SUPERFINISHED = 1.0, 0.4
-"""Lambda ratio below which scenes of new surfaces have a much larger load share of asperities than the estimate: of
-ground and honed surfaces (20 % estimated against 59 % at 0.80, 36 against 84 % at 0.6), and of superfinished ones
-(26 % against 20 % at 0.71)."""
+_LEAST_RATIO = 1.0
+"""Lambda ratio below which scenes of new ground and honed surfaces have a much larger load share of asperities than the
+estimate (20 % estimated against 59 % at 0.80, 36 against 84 % at 0.6)."""
 _NEW_SURFACES = (
     ". The estimate is a fit for ground, run-in surfaces: asperities of new ones with random roughness, as in scenes "
     "of kind friction, carry {more}, and friction lies between both"
 )
+_SUPERFINISHED = (
+    ". The estimate is a fit for ground, run-in surfaces; on the long waves of superfinished ones, as in scenes of "
+    "kind friction, asperities often carry less"
+)
+"""Of roller bearings 51 % estimated against 35 % in the scene at a lambda ratio of 0.40, 26 against 20 % at 0.71."""
 _NEARLY_ALL = 0.9
 """Estimated load share of asperities above which new surfaces, which carry more, are said to carry nearly all."""
 _BALANCE_ROUNDS, _BALANCE_STEP, _HALVINGS = 20, 0.2, 6
@@ -481,9 +485,11 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
     cool = ""
     if element.bulk_estimated:
         cool = f"; about {_ratio_at_oil(element, thinnest):.3g} if the flanks were only as warm as the oil"
-    least = _LEAST_RATIO_SUPERFINISHED if FINISHES.get(element.model.element) == "superfinished" else _LEAST_RATIO
+    smoother = FINISHES.get(element.model.element) == "superfinished"
     more = "nearly all of the load" if share > _NEARLY_ALL else "far more"
-    rougher = _NEW_SURFACES.format(more=more) if touching and ratio < least and thinnest.mixed_friction is None else ""
+    rougher = ""
+    if touching and ratio < _LEAST_RATIO and thinnest.mixed_friction is None:
+        rougher = _SUPERFINISHED if smoother else _NEW_SURFACES.format(more=more)
     return f"{ratio:.3g} ({regime}{touching}), {film}{cool}{_unsolved_words(element)}{rougher}"
 
 

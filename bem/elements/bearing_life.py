@@ -31,7 +31,12 @@ from bem.elements.reference_life import (
 )
 from bem.elements.rolling_bearing import BearingModel
 from bem.notes import Note
-from bem.notes.elements import KAPPA_ABOVE_FILM, LOAD_ABOVE_LIFE_FORMULA, STATIC_LOAD_ABOVE_RATING
+from bem.notes.elements import (
+    KAPPA_ABOVE_FILM,
+    LOAD_ABOVE_LIFE_FORMULA,
+    RATING_NOT_OF_GEOMETRY,
+    STATIC_LOAD_ABOVE_RATING,
+)
 
 HIGHEST_LOAD = 0.5
 """P / C up to which the formulas of ISO 281 hold."""
@@ -39,6 +44,8 @@ KAPPA_EXPONENT = 1.3
 """ISO 281 relates the viscosity ratio to the lambda ratio by kappa = lambda^1.3, approximately."""
 _WELL_BELOW = 0.7
 """Fraction of kappa below which the film's own kappa is said: a_ISO hardly differs above."""
+_RATINGS_ALIKE = 2.0
+"""Factor by which a catalogue's rating may differ from that of the dimensions without a note."""
 DEFAULT_CLEANLINESS = "normal"
 """Cleanliness of a bearing whose file says none."""
 
@@ -216,6 +223,12 @@ def life_notes(element: Element, film_ratio: float | None) -> tuple[Note, ...]:
     assert isinstance(model, BearingModel)
     life, of_film = bearing_life(element), life_of_film(element, film_ratio)
     rating, notes = life.rating, []
+    for key, given, own in (
+        ("dynamic_load_rating", model.dynamic_load_rating, dynamic_rating(model.geometry)),
+        ("static_load_rating", model.static_load_rating, static_rating(model.geometry)),
+    ):
+        if given is not None and not 1 / _RATINGS_ALIKE < given / own < _RATINGS_ALIKE:
+            notes.append(RATING_NOT_OF_GEOMETRY(key, given=given, own=own))
     if rating.load > HIGHEST_LOAD * rating.dynamic_rating:
         notes.append(LOAD_ABOVE_LIFE_FORMULA(ratio=rating.load / rating.dynamic_rating))
     if life.static_rating < life.static_load:

@@ -61,6 +61,13 @@ KAPPA_ABOVE_FILM = define(
         ),
     },
 )
+RATING_NOT_OF_GEOMETRY = define(
+    "rating-not-of-geometry",
+    CAUTION,
+    "The rating of {given:si N} does not fit the bearing's dimensions, which have {own:si N} by ISO 281 and ISO 76.",
+    "Catalogues differ from these by up to some 40 %.",
+    "Check diameter, length and count of the rolling elements, bore and outside.",
+)
 LOAD_ABOVE_LIFE_FORMULA = define(
     "load-above-life-formula",
     CAUTION,

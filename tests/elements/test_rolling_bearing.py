@@ -8,14 +8,14 @@ from scipy.integrate import quad
 
 from bem import CATALOGUE, InputError, contact_modulus
 from bem.elements.answer import friction_power
-from bem.elements.bearing_life import bearing_life
+from bem.elements.bearing_life import bearing_life, life_notes
 from bem.elements.element import element_template, load_element
 from bem.elements.rolling_bearing import BearingModel, _centrifugal, load_integral, share
 from bem.elements.running import Running
 from bem.errors import Status
 from bem.notes import Level, has_code
 from bem.notes.checks import SLOPES_LARGE
-from bem.notes.elements import GLYCOL_ASSUMED
+from bem.notes.elements import GLYCOL_ASSUMED, RATING_NOT_OF_GEOMETRY
 from bem.notes.general import VALUE_UNUSUAL
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -246,3 +246,10 @@ def test_water_glycol_has_a_stated_coefficient_and_thinner_films_than_mineral_oi
         films[grade] = element.columns()["minimum_film [m]"][0]
         assert has_code(element.notes(), GLYCOL_ASSUMED) is (grade != "ISO VG 46")
     assert films["water-glycol 46"] == pytest.approx(films["ISO VG 46"] / 3, rel=0.15, abs=0)
+
+
+def test_a_rating_that_is_not_of_these_dimensions_is_named():
+    """A ball of 1.9 mm in a bearing with the catalogue's 30 kN; the catalogue's ball, 11.9 mm, fits."""
+    for diameter, told in (("1.19 mm", True), ("11.9 mm", False)):
+        element = load_element(BALLS | {"diameter": diameter, "dynamic_load_rating": "32.5 kN"})
+        assert has_code(life_notes(element, None), RATING_NOT_OF_GEOMETRY) is told
