@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 from pydantic.fields import FieldInfo
@@ -25,6 +25,7 @@ from bem.scenes.keys import reason_of
 from bem.scenes.oil import OilScene
 from bem.scenes.paths import parse_key, put
 from bem.scenes.values import dumped, plain_value
+from bem.scenes.values import typed as as_typed
 
 _LINE = re.compile(
     r'(?P<off># )?(?P<key>[a-z_0-9]+) = (?P<value>"[^"]*"|\[.*?\]|\{.*?\}|[^#]*?)\s*(#\s*(?P<words>.*))?'
@@ -109,6 +110,33 @@ def fields_of(name: str) -> list[Field]:
     named = {field.key for field in found} | {field.key.partition(".")[0] for field in found}
     found += [Field(key, "", words, False) for key, words in _known_keys(name).items() if key not in named]
     return sorted(found, key=lambda field: not field.basic)
+
+
+def fields_from(name: str, table: Mapping[str, Any]) -> list[Field]:
+    """Return the fields of an element with the values of its file; keys that the form does not know stand behind them.
+
+    Raises
+    ------
+    InputError : a name of no element.
+    """
+    fields = fields_of(name)
+    known = {field.key for field in fields}
+    given = dict(_typed_by_key({key: value for key, value in table.items() if key != "element"}, known))
+    own = [replace(field, value=given.get(field.key, ""), basic=field.basic or field.key in given) for field in fields]
+    return [field for field in own if field.basic] + [
+        *(Field(key, text, "", True) for key, text in given.items() if key not in known),
+        *(field for field in own if not field.basic),
+    ]
+
+
+def _typed_by_key(table: Mapping[str, Any], known: Collection[str], inside: str = "") -> Iterator[tuple[str, str]]:
+    """Yield dotted keys of a table with their values as typed; a table is one value where its key is known."""
+    for name, value in table.items():
+        key = f"{inside}{name}"
+        if isinstance(value, Mapping) and key not in known:
+            yield from _typed_by_key(value, known, f"{key}.")
+        else:
+            yield key, value if isinstance(value, str) and plain_value(value) == value else as_typed(value)
 
 
 def _known_keys(name: str) -> dict[str, str]:

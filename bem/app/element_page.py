@@ -8,7 +8,7 @@ from typing import Any
 from nicegui import ui
 
 from bem.app.computing import compute
-from bem.app.element_form import Answered, Field, answered, fields_of, file_of, scene_of_form
+from bem.app.element_form import Answered, Field, answered, fields_from, fields_of, file_of, scene_of_form
 from bem.app.layout import busy, page, rows, say, words_of, wrong
 from bem.app.workspace import Workspace
 from bem.elements.element import TITLES
@@ -16,14 +16,23 @@ from bem.errors import BemError
 
 
 class ElementPage:
-    """Fill in a bearing, gear pair, cam, piston ring or bush; the answer appears beside the form."""
+    """Fill in a bearing, gear pair, cam, piston ring or bush; the answer appears beside the form.
 
-    def __init__(self, workspace: Workspace, name: str) -> None:
-        self._workspace, self._name = workspace, name
-        fields = fields_of(name)
+    The form begins as the template, or with the values of an element's file of the folder.
+
+    Raises
+    ------
+    InputError : a name of no element, or a file that is none.
+    """
+
+    def __init__(self, workspace: Workspace, name: str, file: str = "") -> None:
+        table = workspace.element_table(file) if file else {}
+        name = str(table.get("element", name))
+        self._workspace, self._name, self._title = workspace, name, file or name
+        fields = fields_from(name, {"name": file, **table}) if file else fields_of(name)
         self._typed = {field.key: field.value for field in fields}
         self._table = ""
-        with page(name), ui.row().classes("w-full items-start gap-6"):
+        with page(self._title), ui.row().classes("w-full items-start gap-6"):
             with ui.column().style("flex: 1 1 320px; min-width: 0").classes("gap-2"):
                 ui.label(TITLES[name][0].upper() + TITLES[name][1:])
                 with ui.row().classes("bem-bar w-full items-center gap-2"):
@@ -42,7 +51,8 @@ class ElementPage:
                     self._button("scene of mixed friction", "terrain", self._mixed_scene)
                     self._button("file", "download", self._file)
             with ui.column().style("flex: 3 1 480px; min-width: 0") as self._shown:
-                ui.label("Change the values of the example and press answer.").classes("bem-soft")
+                begin = f"The values are those of {file}.toml, which stays as it is" if file else "Change the example"
+                ui.label(f"{begin}; press answer.").classes("bem-soft")
 
     def _button(self, words: str, icon: str, act: Any) -> None:
         button = ui.button(words, icon=icon, on_click=act).props("dense no-caps outline")
@@ -97,10 +107,10 @@ class ElementPage:
         self._button("table of all contacts", "download", self._download_table)
 
     def _download_table(self) -> None:
-        ui.download(self._table.encode(), f"{self._name}.csv")
+        ui.download(self._table.encode(), f"{self._title}.csv")
 
     def _file(self) -> None:
-        ui.download(file_of(self._name, self._typed).encode(), f"{self._name}.toml")
+        ui.download(file_of(self._name, self._typed).encode(), f"{self._title}.toml")
 
     async def _scene(self) -> None:
         await self._save_scene("traction")
@@ -110,7 +120,7 @@ class ElementPage:
 
     async def _save_scene(self, kind: str) -> None:
         """Save a scene of the element and go to its page."""
-        free = self._workspace.free_scene_name(self._name)
+        free = self._workspace.free_scene_name(f"{self._title}-{kind}" if self._title != self._name else self._name)
         try:
             self._workspace.save_scene(free, await compute(scene_of_form, self._name, dict(self._typed), kind))
         except BemError as error:

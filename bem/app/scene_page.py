@@ -135,18 +135,20 @@ def _last_runs(workspace: Workspace) -> None:
 
 
 def _own_scenes(workspace: Workspace) -> None:
-    """The scenes of the folder, which can be renamed and put away."""
+    """The scenes and machine elements of the folder, which can be renamed and put away."""
     heading("Your scenes")
     shown = ui.column().classes("gap-0")
 
     def draw() -> None:
         shown.clear()
-        found = workspace.scenes()
+        scenes, elements = workspace.scenes(), workspace.elements()
+        found = {name: (f"/scene/{name}", kind or "no kind") for name, kind in scenes.items()}
+        found |= {name: (f"/element/{kind}?file={name}", f"machine element: {kind}") for name, kind in elements.items()}
         with shown:
-            for name, kind in found.items():
+            for name, (address, words) in sorted(found.items()):
                 with ui.row().classes("items-center"):
-                    ui.link(name, f"/scene/{name}").classes("text-body1").props["data-scene"] = name
-                    ui.label(kind or "no kind").classes("text-caption bem-soft")
+                    ui.link(name, address).classes("text-body1").props["data-scene"] = name
+                    ui.label(words).classes("text-caption bem-soft")
                     more_actions(name, {"rename": partial(rename, name), "delete": partial(remove, name)})
             if not found:
                 ui.label("None yet: begin one of a kind, or copy a built-in one.").classes("bem-soft")

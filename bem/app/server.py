@@ -8,6 +8,7 @@ import threading
 import webbrowser
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import uvicorn
 from fastapi import FastAPI, HTTPException, Request
@@ -25,7 +26,8 @@ from bem.app.scene_page import ScenePage, scenes_page
 from bem.app.starts import kinds_with_titles
 from bem.app.surface_page import SurfacePage
 from bem.app.workspace import Workspace
-from bem.errors import BemError, ResultsError
+from bem.elements.element import MODELS
+from bem.errors import BemError, InputError, ResultsError
 
 HOST = "127.0.0.1"
 
@@ -62,6 +64,23 @@ def serve(folder: Path, port: int = 0, *, show: bool = True, say: Callable[[str]
     uvicorn.Server(config).run(sockets=[listening])
 
 
+def _or_not_found(draw: Callable[..., Any], *what: Any, **more: Any) -> None:
+    """Draw a page, or say what is wrong with an address of none."""
+    try:
+        draw(*what, **more)
+    except BemError as error:
+        with page("not found"):
+            for text in words_of(error):
+                wrong(text)
+
+
+def _scene_page(workspace: Workspace, name: str) -> None:
+    """Draw the page of a scene; InputError where there is no file of its name."""
+    if not workspace.scene_path(name).is_file():
+        raise InputError(f"{name}: not found; no scene in {workspace.folder} has this name")
+    ScenePage(workspace, name)
+
+
 def application(workspace: Workspace) -> FastAPI:
     """The pages of a folder, unguarded."""
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
@@ -90,11 +109,15 @@ def application(workspace: Workspace) -> FastAPI:
 
     @ui.page("/scene/{name}")
     def scene(name: str) -> None:
-        ScenePage(workspace, name)
+        if name in workspace.elements():
+            _or_not_found(ElementPage, workspace, name, file=name)
+        else:
+            _or_not_found(_scene_page, workspace, name)
 
     @ui.page("/element/{name}")
-    def element(name: str) -> None:
-        ElementPage(workspace, name)
+    def element(name: str, file: str = "") -> None:
+        own = name in workspace.elements() and name not in MODELS
+        _or_not_found(ElementPage, workspace, name, file=name if own and not file else file)
 
     @ui.page("/surfaces")
     def surfaces() -> None:

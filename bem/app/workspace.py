@@ -79,6 +79,11 @@ class _RunEntry:
     seconds: float | None
 
 
+def _is_element(table: Mapping[str, Any]) -> bool:
+    """Return True for the table of a machine element, which is no scene."""
+    return isinstance(table.get("element"), str) and "kind" not in table
+
+
 class Workspace:
     """A folder with scenes (`*.toml`), `surfaces/` and `runs/`.
 
@@ -102,12 +107,27 @@ class Workspace:
 
     def scenes(self) -> dict[str, str]:
         """Kinds of the scene files, by name; "" of a file that says none."""
+        kinds = {name: table.get("kind") for name, table in self._tables().items() if not _is_element(table)}
+        return {name: kind if isinstance(kind, str) else "" for name, kind in kinds.items()}
+
+    def elements(self) -> dict[str, str]:
+        """Machine elements of the element files, by name of the file."""
+        return {name: str(table["element"]) for name, table in self._tables().items() if _is_element(table)}
+
+    def _tables(self) -> dict[str, dict[str, Any]]:
+        """Tables of the files, by name; without those that cannot be read."""
         found = {}
         for path in sorted(self.folder.glob("*.toml")):
             with suppress(OSError, ValueError, RecursionError):
-                kind = tomllib.loads(path.read_text("utf-8-sig")).get("kind")
-                found[path.stem] = kind if isinstance(kind, str) else ""
+                found[path.stem] = tomllib.loads(path.read_text("utf-8-sig"))
         return found
+
+    def element_table(self, name: str) -> dict[str, Any]:
+        """The table of an element's file; InputError where there is none of that name."""
+        table = self._tables().get(name, {})
+        if not _is_element(table):
+            raise InputError(f"{name}: not found; no file of a machine element in {self.folder} has this name")
+        return table
 
     def scene_path(self, name: str) -> Path:
         """The file of a scene; InputError for a name that is none of a file in the folder."""

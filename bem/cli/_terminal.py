@@ -374,8 +374,12 @@ def show_warnings(warnings: Sequence[str], *, remarks: str = "") -> None:
     notes = [as_note(text) for text in warnings]
     begins = {Level.OUTSIDE_MODEL: OUTSIDE, Level.CAUTION: ""}
     lines = [begins[one.level] + one.line for one in notes if one.level in begins]
-    counts = [(len(lines), "caution"), (len(notes) - len(lines), "remark")]
-    head = ", ".join(f"{count} {word}{'s' if count > 1 else ''}" for count, word in counts if count)
+    beyond = sum(one.level is Level.OUTSIDE_MODEL for one in notes)
+    counts = [(len(lines) - beyond, "caution"), (len(notes) - len(lines), "remark")]
+    head = ", ".join(
+        [f"{beyond} outside the model"] * bool(beyond)
+        + [f"{count} {word}{'s' if count > 1 else ''}" for count, word in counts if count]
+    )
     if not head:
         return
     if len(notes) > len(lines) and remarks:

@@ -81,14 +81,13 @@ def element(
     from bem.cli._quantity import new_file
     from bem.cli._terminal import print_text, print_written, show_warnings
     from bem.cli.run import tell_compiling
-    from bem.elements.answer import all_notes, balance_heat, contact_words, place_words, table_columns
-    from bem.elements.element import LIFE, MIXED, load_element, unusual_values_named
+    from bem.elements.answer import all_notes, balance_heat, contact_words, place_words, scene_notes, table_columns
+    from bem.elements.element import load_element, unusual_values_named
     from bem.elements.figure import draw_element
     from bem.elements.plain_bush import PlainBushModel
     from bem.elements.scene_text import element_scene_text
     from bem.errors import InputError
     from bem.notes.checks import YIELDS
-    from bem.notes.elements import SURFACES_TOUCH
     from bem.results.atomic import write_text
     from bem.scenes.load import scene_from_table
 
@@ -138,7 +137,8 @@ def element(
     runs: Sequence[Running] = ()
     lubricated = found.model.oil is not None
     bush = isinstance(found.model, PlainBushModel)  # its one film gives its friction and temperature
-    if running or (lubricated and made is None and (bush or not contacts)):
+    film = made is None or kind in _FILM_KINDS  # the scene of a bush's film has its limits
+    if running or (lubricated and (film if bush else made is None and not contacts)):
         with unusual_values_named(found):
             runs = _solve(found, whole=running or table is not None)
     if contacts:
@@ -150,9 +150,8 @@ def element(
             print_text(sentence)
         if kind == "point-film":
             print_text("The film of kind point-film has no heat; the line film of the answer has it.")
-    notes: Sequence[Note] = all_notes(found, runs)
-    if made is not None and not runs and kind in (*MIXED, LIFE):
-        notes = [note for note in notes if note.code != SURFACES_TOUCH.code]
+    shown = made is None or running
+    notes: Sequence[Note] = all_notes(found, runs) if shown else scene_notes(found, runs, kind)
     if made is not None and not whole:  # the scene's own checks judge its place
         notes = [note for note in notes if note.code != YIELDS.code or note.values["place"] == chosen.name]
     if remarks:
@@ -224,9 +223,13 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...],
     if all(isinstance(one.model, PlainBushModel) for one in cases):  # one contact, under the radial load
         hidden |= {"worst", "thinnest", *(["load [N]"] if "radial_load" in changed else [])}
     shown = [name for name in found if name not in hidden]
+    rough = [_estimates(found, row) for row in range(len(cases))]
     lines = [
-        tuple(one if isinstance(one, str) else _spelled(name, one) for name, one in zip(shown, row, strict=True))
-        for row in zip(*(_life_words(found, name) for name in shown), strict=True)
+        tuple(
+            one if isinstance(one, str) else _rounded(name, one) if name in about else _spelled(name, one)
+            for name, one in zip(shown, row, strict=True)
+        )
+        for about, row in zip(rough, zip(*(_life_words(found, name) for name in shown), strict=True), strict=True)
     ]
     source = power_source(cases)
     heads = _CASE_HEADS | ({"friction_power [W]": f"friction power ({source})"} if source else {})
@@ -248,23 +251,46 @@ def _life_words(found: Mapping[str, list[float | str]], name: str) -> list[float
     ]
 
 
+def _estimates(found: Mapping[str, list[float | str]], row: int) -> tuple[str, ...]:
+    """Return the columns of a case that are known as estimates: film and lambda ratio of a bush beside those of a
+    journal bearing, and where that stands in place of the film the friction, too."""
+    from bem.elements.cases import JOURNAL
+
+    journal = float(found[JOURNAL][row]) if JOURNAL in found else math.nan
+    if math.isnan(journal):
+        return ()
+    films = ("solved_minimum_film [m]", "solved_film_over_roughness")
+    return (*films, "friction_coefficient", "friction_power [W]") if found[films[0]][row] == journal else films
+
+
+def _rounded(name: str, value: float) -> str:
+    """Return an estimate in two digits, "about 27 um"."""
+    from bem.quantities import plain_digits, si, with_signs
+
+    if math.isnan(value):
+        return ""
+    unit = name.partition(" [")[2].removesuffix("]")
+    return f"about {with_signs(si(value, unit, 2)) if unit else plain_digits(value)}"
+
+
 def _spelled(name: str, value: float) -> str:
     """A number in the unit of its column's name, "load [N]"."""
     from bem.elements.cases import JOURNAL
     from bem.plots.report import spelled
-    from bem.quantities import plain_digits, si, with_unit
+    from bem.quantities import plain_digits, with_unit
 
     unit = name.partition(" [")[2].removesuffix("]")
     if unit == "h" and not math.isnan(value):
         return f"{plain_digits(value, 3)} h"
     if unit == "K":
-        return "" if math.isnan(value) else f"{value - ZERO_CELSIUS:.3g} °C"
+        digits = 4 if name == "bush_temperature [K]" else 3  # beside a limit
+        return "" if math.isnan(value) else f"{value - ZERO_CELSIUS:.{digits}g} °C"
     if unit == "m/s":
         return with_unit(value, unit)
     if unit == "Pa*m/s":
         return f"{1e-6 * value:.3g} MPa m/s"
     if name == JOURNAL:
-        return "" if math.isnan(value) else f"about {si(value, 'm', 2)}"
+        return _rounded(name, value)
     return "" if math.isnan(value) else spelled(f"x_{unit}" if unit else "x", value)[1]
 
 
@@ -289,13 +315,16 @@ def _answer(found: Element, runs: Sequence[Running]) -> None:
     described = f", {found.model.description}" if found.model.description else ""
     speed = getattr(found.model, "speed", None)
     described += f", {plain_digits(rpm(speed), 4)} rpm" if speed else ""
+    swing = getattr(found.model, "oscillation", None)
+    described += f", ±{math.degrees(swing.amplitude):.3g}°, {swing.frequency:.3g} Hz" if swing else ""
     named = f"{found.model.name}: " if found.model.name != found.model.element else ""
     table(("", ""), answer(found, runs), title=f"{named}{found.model.element}{described}")
     for sentence in found.found.geometry:
         print_text(sentence)
     count = len(found.found.contacts)
     solved = f", {len(runs)} solved film{'s' if len(runs) > 1 else ''}" if runs else ""
-    options = "--contacts shows them, --table FILE.csv and --figure FILE.png write them"
+    them = "them" if count > 1 else "it"
+    options = f"--contacts shows {them}, --table FILE.csv and --figure FILE.png write {them}"
     print_text(f"{count} contact{'s' if count > 1 else ''}{solved}: {options}.")
 
 

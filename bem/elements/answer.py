@@ -26,7 +26,7 @@ from bem.elements.bush_answer import (
 )
 from bem.elements.cam_follower import CamModel
 from bem.elements.contact import ElementContact
-from bem.elements.element import AT_MARK, Element
+from bem.elements.element import AT_MARK, LIFE, MIXED, Element
 from bem.elements.element_wear import particles_per_hour, wear_per_hour, worn_volume_rate
 from bem.elements.gear_pair import GearModel
 from bem.elements.gear_scuffing import (
@@ -44,13 +44,37 @@ from bem.elements.running import Running, columns, run_all
 from bem.elements.running import notes as film_notes
 from bem.errors import InputError
 from bem.notes import Note
-from bem.notes.elements import BUSH_BOUNDS, BUSH_CONFORMS, BUSH_FLOATS, BUSH_LEAKS, SURFACES_TOUCH
+from bem.notes.elements import (
+    BUSH_BOUNDS,
+    BUSH_CONFORMS,
+    BUSH_FLOATS,
+    BUSH_LEAKS,
+    BUSH_LIQUID_LOST,
+    BUSH_SWINGS,
+    BUSH_TOUCHES,
+    BUSH_WARMER_THAN_OIL,
+    BUSH_WEARS_IN_FILM,
+    FILM_BY_SQUEEZE,
+    GLYCOL_ASSUMED,
+    NO_HEAT,
+    OIL_FOLLOWS_BALANCE,
+    SURFACES_TOUCH,
+    VISCOSITY_FIXED,
+)
 from bem.notes.note import has_code, percent, without
 from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import plain_digits, with_unit
 
 Rows = tuple[tuple[str, str], ...]
 
+FORMULA_FILMS = ("minimum_film [m]", "film_over_roughness")
+"""Columns of films by the formula."""
+_OF_FILMS = (
+    *(BUSH_LEAKS, BUSH_SWINGS, BUSH_FLOATS, BUSH_BOUNDS, BUSH_TOUCHES, BUSH_LIQUID_LOST, BUSH_WARMER_THAN_OIL),
+    *(BUSH_WEARS_IN_FILM, GLYCOL_ASSUMED, NO_HEAT, OIL_FOLLOWS_BALANCE, VISCOSITY_FIXED, SURFACES_TOUCH),
+    FILM_BY_SQUEEZE,
+)
+"""Notes that a scene of the dry contact has no use for."""
 PLACES = 11
 """Films that are solved for an answer on one screen, beside marked and extreme contacts; `--running` solves all."""
 _LEAST_SCATTER = 0.005
@@ -253,6 +277,29 @@ def _balance_bush(element: Element, model: PlainBushModel) -> Element:
         return element.at_bulk(_balanced(excess, model.surroundings))
     except _NoFilm:
         return element
+    except InputError:
+        jump = _jump(excess, model.surroundings)
+        if jump is None:
+            raise
+        return element.at_bulk(jump)
+
+
+def _jump(excess: Callable[[float], float], around: float) -> float | None:
+    """Return the temperature [K] at which an excess over it jumps past zero; None without a change of sign.
+
+    The friction of a bush jumps where its film becomes thicker than the radial clearance.
+    """
+    low, high = around, around + excess(around)
+    try:
+        high, above = _within_oil(excess, low, high)
+        if not (low < high and above < 0):
+            return None
+        while high - low > _BALANCE_STEP:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if excess(middle) > 0 else (low, middle)
+    except InputError:
+        return None
+    return high
 
 
 class _NoFilm(Exception):
@@ -358,7 +405,8 @@ def film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | None
     """Return the film of a bush from its solved films that converged; None without one."""
     if not runs:
         return None
-    warm = element.model.film_temperature
+    warm, own = element.model.film_temperature, friction_power(element, runs)
+    slid = sum(_slid(one) for one in runs)
     hottest = max((one.surface for one in runs if one.surface is not None), default=None)
     return FilmOfBush(
         likely_power(element, runs),
@@ -366,7 +414,8 @@ def film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | None
         solved=all(one.mixed_friction is not None for one in runs),
         touching=any((one.film_ratio or 1.0) < 1 for one in runs),
         rise=0.0 if hottest is None or warm is None else max(hottest - warm, 0.0),
-        thickness=min(one.minimum_film for one in runs),
+        thickness=min(one.impossible_film or one.minimum_film for one in runs),
+        friction=(own.film if own.with_asperities is None else own.with_asperities) / slid,
     )
 
 
@@ -413,12 +462,31 @@ def _ratios_by_films(element: Element, solved: Sequence[Running]) -> list[float]
     return [ratio(one, by_formula) for one, by_formula in zip(contacts, formula, strict=True)]
 
 
+def scene_notes(element: Element, solved: Sequence[Running], kind: str) -> tuple[Note, ...]:
+    """Return the notes on an element that matter to a scene of a kind; those on its film come with the run.
+
+    solved : film of a bush, of which its scene has the limits.
+    """
+    found = all_notes(element, [replace(one, notes=()) for one in solved])
+    if kind == "contact":
+        return without(found, *_OF_FILMS)
+    if kind in (*MIXED, LIFE):  # the run has the load share of asperities
+        found = without(found, SURFACES_TOUCH, BUSH_TOUCHES)
+    found = without(found, BUSH_WEARS_IN_FILM)
+    return tuple(
+        BUSH_FLOATS(**{**note.values, "reason": "beyond-scene"})
+        if has_code([note], BUSH_FLOATS, reason="beyond")
+        else note
+        for note in found
+    )
+
+
 def table_columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]:
     """Return the columns of solved films, see `bem.elements.running.columns`; none without films.
 
     Of a bush the friction power with asperities, the bush's temperature and, beside a film that reaches far around, the
-    estimated film of a journal bearing stand beside them. It has no wear per pass:
-    the load stays on one place of the bush.
+    estimated film of a journal bearing stand beside them; a film by the formula is left out where the solved one is
+    thicker than the clearance. It has no wear per pass: the load stays on one place of the bush.
     """
     found = columns(element, runs) if runs else {}
     if not isinstance(element.model, PlainBushModel):
@@ -428,6 +496,8 @@ def table_columns(element: Element, runs: Sequence[Running]) -> dict[str, list[f
     journal = None if film is None else journal_of(element.model, film)
     if journal is not None:
         found[JOURNAL] = [journal.minimum_thickness]
+    if any(one.impossible_film for one in runs):
+        found |= {name: [math.nan] for name in FORMULA_FILMS if name in element.columns()}
     power = friction_power_of(element.model, film)[0]
     if power is None:
         return found

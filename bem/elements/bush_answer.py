@@ -19,8 +19,6 @@ from bem.elements.plain_bush import (
 )
 from bem.notes import Note
 from bem.notes.elements import (
-    BUSH_BOUNDS,
-    BUSH_FLOATS,
     BUSH_LIQUID_LOST,
     BUSH_OVER_LIMIT,
     BUSH_SWELLS,
@@ -30,22 +28,17 @@ from bem.notes.elements import (
 )
 from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import plain_digits, si, with_unit
-from bem.reference_solutions.journal_bearing import JournalFilm, journal_film
+from bem.reference_solutions.journal_bearing import JournalFilm
+from bem.scenes.tables import bush as bush_tables
+from bem.scenes.tables.bush import THICK, thick_film_note
 
 _HOUR = 3600.0
 _WARMER = 15.0
 """Excess of the bush over the liquid of its film that is worth a note [K]: viscosities change by 2 to 5 % a kelvin."""
-
-
-THICK = 0.1
-"""Film over the radial clearance from which the oil carries the shaft as in a journal bearing. There, at L/D = 0.8, the
-film of an endless line is 1.9 times as thick as that of `reference_solutions.journal_bearing`, which is itself up to
-12 % too thick."""
-BOUNDED = 1 / 30
-"""Film over the radial clearance from which the film of a journal bearing stands beside it as its lower bound: of the
-rigid endless cylinder's load (Martin's film, dp/dx = 0 at the outlet) 8 % is then carried beyond 45 degrees before the
-load line, where the gap of shaft and bush is no parabola and liquid leaves at the ends; of a film of c/100 2.6 %."""
-
+_JUMP = 1.0
+"""Difference [K] by which a heat balance is not met where the estimate of the friction jumps."""
+_RESOLVED = 0.05
+"""Excess over a limit temperature [K] below which temperatures with a digit behind the point are alike."""
 JOURNAL = "journal_bearing_film_estimate [m]"
 """Column of the estimated film of a rigid journal bearing: the lower bound beside a film that reaches far around."""
 
@@ -61,7 +54,9 @@ class FilmOfBush:
     solved : whether share and friction are those of kind friction; else they are estimated.
     touching : whether the smooth film is thinner than the roughness.
     rise : of the hotter surface at its hottest above the bodies [K].
-    thickness : of the film if it carried the whole load, at its thinnest [m].
+    thickness : of the film of the equivalent cylinder if it carried the whole load, at its thinnest [m]; where that is
+        more than the radial clearance, which is impossible, power and share are those of a journal bearing.
+    friction : coefficient of film and asperities, without one of the file.
     """
 
     power: float
@@ -70,6 +65,7 @@ class FilmOfBush:
     touching: bool = False
     rise: float = 0.0
     thickness: float = 0.0
+    friction: float = 0.0
 
 
 def pressure_words(model: PlainBushModel) -> str:
@@ -97,9 +93,10 @@ def journal_beside(model: PlainBushModel, thickness: float) -> JournalFilm | Non
     thickness : of the film of the equivalent cylinder [m].
     """
     oil = model.film_oil
-    if oil is None or thickness < BOUNDED * model.radial_clearance:
+    if oil is None:
         return None
-    return journal_film(
+    return bush_tables.journal_beside(
+        thickness,
         load=model.radial_load,
         radius=model.bodies.radius,
         clearance=model.radial_clearance,
@@ -114,9 +111,12 @@ def thick_film_words(model: PlainBushModel, film: FilmOfBush) -> str | None:
     journal = journal_of(model, film)
     if journal is None:
         return None
-    said = bounds_words(film.thickness, journal)
+    beyond = film.thickness > model.radial_clearance
+    said = beyond_words(model, film.thickness, journal) if beyond else bounds_words(film.thickness, journal)
     if model.rms_roughness is None:
         return f"not known: give rms_roughness, of both surfaces together; {said}"
+    if beyond:
+        return f"outside the model, about {journal.minimum_thickness / model.rms_roughness:.2g}: minimum film {said}"
     low, high = (f"{one / model.rms_roughness:.2g}" for one in (journal.minimum_thickness, film.thickness))
     if film.thickness < THICK * model.radial_clearance:
         return f"between about {low} and {high}: {said}"
@@ -126,6 +126,14 @@ def thick_film_words(model: PlainBushModel, film: FilmOfBush) -> str | None:
 def bounds_words(thickness: float, journal: JournalFilm) -> str:
     """Return the films of the equivalent cylinder, of a thickness [m], and of the journal bearing in words."""
     return f"minimum film about {si(thickness, 'm', 2)} as of an endless cylinder on a flat, {journal_words(journal)}"
+
+
+def beyond_words(model: PlainBushModel, thickness: float, journal: JournalFilm) -> str:
+    """Return the film of the journal bearing in words where that of a thickness [m] is impossible."""
+    return (
+        f"{journal_words(journal)} (an endless cylinder on a flat would have {si(thickness, 'm', 2)}, more than the "
+        f"radial clearance of {si(model.radial_clearance, 'm', 3)})"
+    )
 
 
 def journal_words(journal: JournalFilm) -> str:
@@ -143,6 +151,10 @@ def friction_power_of(model: PlainBushModel, film: FilmOfBush | None) -> tuple[f
         return model.friction * slid, f"friction coefficient {model.friction:g}, given"
     if film is not None:
         coefficient = f"friction coefficient {film.power / slid:.3g}"
+        if film.thickness > model.radial_clearance:
+            return film.power, (
+                f"friction coefficient about {film.power / slid:.2g} by an estimate as a full journal bearing"
+            )
         if film.asperity_share < LEAST_ASPERITY_SHARE:
             journal = journal_of(model, film)
             around = (
@@ -179,15 +191,18 @@ def bush_temperature(model: PlainBushModel, power: float) -> float:
 def bush_rows(model: PlainBushModel, film: FilmOfBush | None) -> list[tuple[str, str]]:
     """Return rows of name and words; `film` as in `friction_power_of`."""
     power, source = friction_power_of(model, film)
+    given = model.friction is not None
+    about = film is not None and not given and film.thickness > model.radial_clearance
+    said = "" if power is None else f"about {plain_digits(power, 2)} W" if about else f"{plain_digits(power, 3)} W"
     rows = [
         ("pressure x velocity", _pv(model)),
-        ("friction power", f"not known: {source}" if power is None else f"{plain_digits(power, 3)} W ({source})"),
+        ("friction power", f"not known: {source}" if power is None else f"{said} ({source})"),
         ("temperatures", _temperature(model, power)),
         ("wear per hour", _wear(model, film)),
     ]
     if model.specific_wear_rate:
         highest = model.service_temperature
-        hot = power is not None and highest is not None and bush_temperature(model, power) > highest
+        hot = power is not None and _too_hot(model, bush_temperature(model, power))
         lost = f"; the life does not hold above {(highest or 0.0) - ZERO_CELSIUS:.3g} °C" if hot else ""
         rows.append(("wear life", _life(model) + lost))
     return rows
@@ -212,15 +227,8 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
         notes.append(BUSH_WEARS_IN_FILM(share=film.asperity_share))
     journal = None if film is None else journal_of(model, film)
     if film is not None and journal is not None:
-        floats = film.thickness >= THICK * model.radial_clearance
         notes.append(
-            (BUSH_FLOATS if floats else BUSH_BOUNDS)(
-                share=film.thickness / model.radial_clearance,
-                film=film.thickness,
-                journal=journal.minimum_thickness,
-                friction=film.power / (model.radial_load * model.sliding_speed),
-                turning=journal.friction,
-            )
+            thick_film_note(film.thickness, film.friction, journal, model.radial_clearance, impossible="beyond")
         )
     if film is not None and film.touching:
         notes.append(BUSH_TOUCHES(share=film.asperity_share, reason="solved" if film.solved else "estimated"))
@@ -230,7 +238,7 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
 def _temperature_notes(model: PlainBushModel, film: FilmOfBush | None, temperature: float) -> list[Note]:
     """Return notes on a bush temperature [K] that the bush or its liquid does not stand, or its film does not have."""
     notes, highest = [], model.service_temperature
-    if highest is not None and temperature > highest:
+    if highest is not None and _too_hot(model, temperature):
         reason = "temperature" if model.maximum_temperature is None else "given"
         notes.append(BUSH_OVER_LIMIT(value=temperature - ZERO_CELSIUS, limit=highest - ZERO_CELSIUS, reason=reason))
     closing = model.closing_expansion(temperature)
@@ -250,6 +258,12 @@ def _temperature_notes(model: PlainBushModel, film: FilmOfBush | None, temperatu
     return notes
 
 
+def _too_hot(model: PlainBushModel, temperature: float) -> bool:
+    """Return True if a bush temperature [K] is above the limit by more than is shown of it."""
+    highest = model.service_temperature
+    return highest is not None and temperature > highest + _RESOLVED
+
+
 def _liquid_lost(model: PlainBushModel, temperature: float, rise: float) -> Note | None:
     """Return a note on a liquid that freezes, evaporates or boils at the bush's temperature and its rise [K]."""
     limits = model.liquid_limits
@@ -257,11 +271,12 @@ def _liquid_lost(model: PlainBushModel, temperature: float, rise: float) -> Note
         return None
     freezing, service, boiling = limits
     hottest = temperature + rise
+    cooled = "" if model.conductance_known else " in still air"
     said: dict[str, Any] = {"bush": temperature - ZERO_CELSIUS, "rise": rise}
     if hottest >= boiling:
-        return BUSH_LIQUID_LOST(**said, limit=boiling - ZERO_CELSIUS, reason="boils")
+        return BUSH_LIQUID_LOST(**said, limit=boiling - ZERO_CELSIUS, reason=f"boils{cooled}")
     if hottest > service:
-        return BUSH_LIQUID_LOST(**said, limit=service - ZERO_CELSIUS, reason="evaporates")
+        return BUSH_LIQUID_LOST(**said, limit=service - ZERO_CELSIUS, reason=f"evaporates{cooled}")
     if temperature <= freezing:
         return BUSH_LIQUID_LOST(**said, limit=freezing - ZERO_CELSIUS, reason="freezes")
     return None
@@ -283,7 +298,9 @@ def _temperature(model: PlainBushModel, power: float | None) -> str:
         return "not known: they follow from the friction"
     temperature = bush_temperature(model, power or 0.0) - ZERO_CELSIUS
     around = model.surroundings - ZERO_CELSIUS
-    said = f"bush {temperature:.3g} °C"
+    highest = model.service_temperature
+    near = highest is not None and abs(temperature + ZERO_CELSIUS - highest) < 1
+    said = f"bush {temperature:.{4 if near else 3}g} °C"
     if model.bulk_temperature is not None:
         said += f", {'by the heat balance' if model.balanced else 'given'}"
         film = model.film_temperature
@@ -294,9 +311,10 @@ def _temperature(model: PlainBushModel, power: float | None) -> str:
     if model.bulk_temperature is None or model.balanced:
         assert power is not None
         said += f": surroundings {around:.3g} °C plus {plain_digits(power, 3)} W over {model.conductance:.3g} W/K"
+        if abs(around + power / model.conductance - temperature) > _JUMP:
+            said += " (between two estimates: the friction jumps as the film exceeds the radial clearance)"
         if model.heat_balance is None or model.heat_balance.conductance is None:
             said += f", assumed as {TRANSFER:g} W/(m^2 K) x {AREA_FACTOR:g} d L (give heat_balance)"
-    highest = model.service_temperature
     if highest is None:
         return f"{said}; no limit given (maximum_temperature)"
     given = model.maximum_temperature is not None

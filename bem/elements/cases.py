@@ -21,7 +21,7 @@ from typing import Any, get_args
 from pydantic import BaseModel
 from pydantic_core import PydanticCustomError
 
-from bem.elements.answer import film_of_bush, least_film_ratio, likely_power, place_words, unsolved_ratio
+from bem.elements.answer import FORMULA_FILMS, film_of_bush, least_film_ratio, likely_power, place_words, unsolved_ratio
 from bem.elements.bearing_life import bearing_life, life_of_film
 from bem.elements.bush_answer import JOURNAL, bush_temperature, friction_power_of, journal_of, wear_life
 from bem.elements.element import Element, load_element, read_element
@@ -182,6 +182,10 @@ def columns(
         del found["hertz_pressure [Pa]"]
     if all("minimum_film [m]" in one.columns() for one in cases):
         found |= _films_by_formula(cases, "thinnest_by_formula" if runs else "thinnest")
+        for name in FORMULA_FILMS:
+            for row, own in enumerate(runs):
+                if name in found and any(one.impossible_film for one in own):
+                    found[name][row] = math.nan
     if runs:
         known = [[one for one in each if one.converged] for each in runs]
         if all(known):

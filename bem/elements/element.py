@@ -424,6 +424,11 @@ class Element:
             raise InputError(
                 f"kind {show(kind)}: not made of an element{nearest(kind, KINDS)}; allowed: {', '.join(KINDS)}"
             )
+        if kind == LIFE and isinstance(self.model, PlainBushModel):
+            raise InputError(
+                f"{self.model.name}: kind {kind} wears two bodies that pass through the contact; a bush wears at one "
+                "place. Allowed: the wear life of the answer (specific_wear_rate), or kind running-in"
+            )
         assumed = []
         if kind in (*MIXED, LIFE, "surface-temperature"):
             own = isinstance(self.model, PlainBushModel) and kind == "surface-temperature"
@@ -455,6 +460,9 @@ class Element:
             more.append(f"{count} cycles, passes of body 1, take {count / self.found.passes[0] / 3600:.2g} h")
         if isinstance(self.model, PlainBushModel) and kind in ("traction", *MIXED, LIFE):
             more = [*more, *self._film_bounds(self.model, contact)]
+        if isinstance(self.model, PlainBushModel) and kind in ("traction", "friction"):
+            bore = self.model.shaft_diameter + self.model.clearance
+            film = {**film, "bush": {"bore": bore, "clearance": self.model.clearance}}
         base["description"] = "; ".join([base["description"], *more])
         return base | film
 
@@ -464,7 +472,10 @@ class Element:
         journal = journal_beside(bush, thickness)
         if journal is None:
             return []
-        return [f"the film of this scene is an upper bound, too thick; its lower bound is {journal_words(journal)}"]
+        found = f"{journal_words(journal)}, at {with_unit(bush.sliding_speed, 'm/s')}"
+        if thickness > bush.radial_clearance:
+            return [f"the film of this scene is impossible, thicker than the radial clearance; it is {found}"]
+        return [f"the film of this scene is an upper bound, too thick; its lower bound is {found}"]
 
     def shared_friction(self, contact: ElementContact) -> SharedFriction | None:
         """Solve the load sharing of one contact of a bush between its film and a ground shaft of the given roughness.
@@ -560,7 +571,8 @@ class Element:
         }
         if kind == "point-film":
             if contact.length is not None:
-                others = ", ".join(one for one in KINDS if one != "point-film")
+                refused = ("point-film", LIFE) if isinstance(self.model, PlainBushModel) else ("point-film",)
+                others = ", ".join(one for one in KINDS if one not in refused)
                 raise InputError(f"{contact.name}: a line contact has no film of kind point-film; allowed: {others}")
             ball = {"radius": contact.radius, "radius_y": contact.across, "load": contact.load}
             return {**shared, "ball": ball}, []

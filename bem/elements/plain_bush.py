@@ -26,6 +26,7 @@ from bem.materials import CATALOGUE, Material
 from bem.notes import Note
 from bem.notes.elements import BUSH_CONFORMS, BUSH_LEAKS, BUSH_SWINGS, GLYCOL_ASSUMED
 from bem.physical_constants import ROOM_TEMPERATURE
+from bem.quantities import with_unit
 from bem.scenes.common import MaterialScene, PositiveLength, Table, problem
 from bem.scenes.oil import OilScene
 from bem.scenes.units import Angle, Dimension, Force, Rate, Ratio, RotationSpeed, Temperature
@@ -125,9 +126,17 @@ class PlainBushModel(ElementModel):
             both = self.speed is not None
             raise problem(f"{'both' if both else 'neither'} of speed and oscillation given", "one of them")
         if not self.clearance < 0.1 * self.shaft_diameter:
-            raise problem("clearance is above a tenth of the shaft diameter", "bore less shaft diameter")
+            most = with_unit(0.1 * self.shaft_diameter, "m")
+            raise problem(
+                "clearance is above a tenth of the shaft diameter", f"below {most} (bore less shaft diameter)"
+            )
         if self.wall is not None and not self.wall >= 0.01 * self.shaft_diameter:
-            raise problem("wall is below 1 % of the shaft diameter", "a thicker wall; a thin lining is a coating")
+            least = f"{math.ceil(1e4 * self.shaft_diameter)} um"
+            raise problem(
+                "wall is below 1 % of the shaft diameter",
+                f"at least {least}; for the pressure of a thinner lining write the scene of that wall "
+                "(bem element FILE --scene lining.toml --kind contact) and set upper.layer.thickness in it",
+            )
         if self.housing is not None and self.wall is None:
             raise problem("housing without wall", "wall beside housing")
         rate = self.specific_wear_rate
@@ -255,6 +264,12 @@ class PlainBushModel(ElementModel):
         if self.heat_balance is not None and self.heat_balance.conductance is not None:
             return self.heat_balance.conductance
         return TRANSFER * AREA_FACTOR * self.shaft_diameter * self.length
+
+    @property
+    def conductance_known(self) -> bool:
+        """Return True unless the bush's temperature hangs on the usual conductance."""
+        given = self.heat_balance is not None and self.heat_balance.conductance is not None
+        return given or (self.bulk_temperature is not None and not self.balanced)
 
     def contact(self) -> ElementContact:
         """The equivalent cylinder at the load line."""

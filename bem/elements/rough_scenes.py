@@ -121,10 +121,10 @@ def finish_words(model: ElementModel) -> str:
     lengths = finish_lengths(model)
     assert lengths is not None
     if model.correlation_length is not None:
-        return f"the roughness is random, with the element's correlation length of {si(min(lengths), 'm')}"
+        return f"generated roughness has the element's correlation length of {si(min(lengths), 'm')}"
     return (
-        f"the roughness is that of {name} surfaces (correlation length {si(min(lengths), 'm')}), which is assumed and "
-        "decides how much the asperities carry: measured surfaces are better"
+        f"generated roughness is that of {name} surfaces (correlation length {si(min(lengths), 'm')}), which is "
+        "assumed and decides how much the asperities carry: measured surfaces are better"
     )
 
 

@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from bem.elements.bush_answer import journal_beside
 from bem.elements.contact import ElementContact
 from bem.elements.element import Element
 from bem.elements.plain_bush import PlainBushModel
@@ -46,6 +47,8 @@ class Running:
     asperity_share : share of the load on asperities, of a bush by kind friction, of others estimated; None without
     roughness. flash : flash temperature under the film's friction [K]; None without the bodies' thermal constants.
     mixed_friction : friction coefficient of film and asperities by kind friction; None where the share is an estimate.
+    impossible_film : of a bush, the film of the equivalent cylinder [m] where it is thicker than the radial clearance;
+    film and friction are then those of a journal bearing, an estimate, and temperatures are not known.
     """
 
     contact: ElementContact
@@ -62,6 +65,7 @@ class Running:
     flash: float | None = None
     mixed_friction: float | None = None
     rolling_power: float = 0.0
+    impossible_film: float | None = None
 
     @property
     def converged(self) -> bool:
@@ -87,13 +91,16 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
     found = case.on(POINTS)
     figures = traction_figures(case, found)
     hottest = max((figures[f"{body}_temperature"] for body in ("lower", "upper")), default=None) if case.hot else None
+    film = figures["minimum_thickness"]
+    if isinstance(element.model, PlainBushModel) and film > element.model.radial_clearance:
+        return _as_journal(element.model, contact, found.status, film)
     shared = element.shared_friction(contact)
     if shared is not None and shared.hottest is not None:
         hottest = max(shared.hottest, hottest or 0.0)
     return Running(
         contact,
         found.status,
-        figures["minimum_thickness"],
+        film,
         figures.get("lambda_ratio"),
         figures["traction_coefficient"],
         figures["friction_power"],
@@ -105,6 +112,19 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
         flash_temperature(contact, figures["traction_coefficient"], modulus=element.modulus, bodies=element.bodies),
         None if shared is None else shared.friction,
         rolling_power(found) * case.width,
+    )
+
+
+def _as_journal(model: PlainBushModel, contact: ElementContact, status: Status, film: float) -> Running:
+    """Return a bush with the estimated film of a journal bearing in place of one thicker than the clearance [m]."""
+    journal = journal_beside(model, film)
+    assert journal is not None
+    thickness, friction = journal.minimum_thickness, journal.friction
+    power = friction * model.radial_load * model.sliding_speed
+    ratio = None if model.rms_roughness is None else thickness / model.rms_roughness
+    share = None if ratio is None else 0.0
+    return Running(
+        contact, status, thickness, ratio, friction, power, None, None, asperity_share=share, impossible_film=film
     )
 
 

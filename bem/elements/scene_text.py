@@ -37,6 +37,8 @@ _UNITS = {
             "lengths",
             "spacing",
             "position",
+            "bore",
+            "clearance",
             *"ABCDE",
         ),
         "m",

@@ -181,12 +181,12 @@ BUSH_OVER_LIMIT = define(
             headline="Pressure times velocity (p v) exceeds its limit.",
         ),
         "temperature": Reason(
-            "It would reach {value:.0f} °C, above {limit:.0f} °C; wear and life do not hold.",
+            "It would reach {value:.4g} °C, above {limit:.4g} °C; wear and life do not hold.",
             "Lower friction, load or speed, or lead off more heat (heat_balance).",
             headline="The bush becomes too hot: it would soften or melt.",
         ),
         "given": Reason(
-            "It would reach {value:.0f} °C, above {limit:.0f} °C; wear and life do not hold.",
+            "It would reach {value:.4g} °C, above {limit:.4g} °C; wear and life do not hold.",
             "Lower friction, load or speed, or lead off more heat (heat_balance).",
             headline="The bush becomes too hot: above maximum_temperature.",
         ),
@@ -223,6 +223,11 @@ OIL_FOLLOWS_BALANCE = define(
     "If the oil comes at {oil:.4g} °C, as from a cooler or a sump, leave out heat_balance.ambient: the heat then goes "
     "to this oil. Otherwise check the conductance, and leave out oil.temperature.",
 )
+_STILL_AIR = (
+    "Cooling by still air is assumed. In flowing liquid give bulk_temperature, or heat_balance with its conductance "
+    "and without ambient; film and friction do not hold."
+)
+"""Action where the bush's temperature hangs on the usual conductance."""
 BUSH_LIQUID_LOST = define(
     "bush-liquid-lost",
     CAUTION,
@@ -235,6 +240,17 @@ BUSH_LIQUID_LOST = define(
             "The bush has {bush:.0f} °C, its surface {rise:.2g} K more; at ambient pressure the liquid boils at "
             "{limit:.0f} °C.",
             headline="The liquid boils in the bush.",
+        ),
+        "boils in still air": Reason(
+            "The bush has {bush:.0f} °C, its surface {rise:.2g} K more; at ambient pressure the liquid boils at "
+            "{limit:.0f} °C.",
+            _STILL_AIR,
+            headline="The liquid boils in the bush.",
+        ),
+        "evaporates in still air": Reason(
+            "The bush has {bush:.0f} °C, its surface {rise:.2g} K more; the liquid should stay below {limit:.0f} °C.",
+            _STILL_AIR,
+            headline="The water of the liquid evaporates.",
         ),
         "evaporates": Reason(
             "The bush has {bush:.0f} °C, its surface {rise:.2g} K more; the liquid should stay below {limit:.0f} °C.",
@@ -262,10 +278,28 @@ BUSH_FLOATS = define(
     "bush-floats",
     Level.OUTSIDE_MODEL,
     "The oil carries the shaft as in a journal bearing, which is not modelled.",
-    "The film is {share:.0%} of the radial clearance. Of an endless cylinder on a flat it is {film:si m} thick with a "
-    "friction coefficient of {friction:.2g}; by an estimate as a journal bearing of this length, all of it filled, it "
-    "is {journal:si m} thick with {turning:.2g}.",
-    "The film is up to twice too thick and the friction too low; take them from a program for journal bearings.",
+    reasons={
+        "thick": Reason(
+            "The film is {share:.0%} of the radial clearance. Of an endless cylinder on a flat it is {film:si m} thick "
+            "with a friction coefficient of {friction:.2g}; by an estimate as a journal bearing of this length, all of "
+            "it filled, it is {journal:si m} thick with {turning:.2g}.",
+            "The film is {thicker:.2g} times that of the journal estimate, the friction {lower:.2g} times; take both "
+            "from a program for journal bearings.",
+        ),
+        "beyond": Reason(
+            "Of an endless cylinder on a flat the film would be {film:si m} thick, more than the radial clearance of "
+            "{clearance:si m}. By an estimate as a journal bearing of this length, all of it filled, it is "
+            "{journal:si m} thick with a friction coefficient of {turning:.2g}.",
+            "Film, lambda ratio and friction are estimates as a rigid journal bearing; take them from a program for "
+            "journal bearings.",
+        ),
+        "beyond-scene": Reason(
+            "The film of an endless cylinder on a flat, {film:si m}, is thicker than the radial clearance of "
+            "{clearance:si m}, which is impossible. By an estimate as a journal bearing of this length, all of it "
+            "filled, it is {journal:si m} thick with a friction coefficient of {turning:.2g}.",
+            "Film, lambda ratio and friction do not hold; take them from a program for journal bearings.",
+        ),
+    },
 )
 BUSH_BOUNDS = define(
     "bush-film-bounds",
@@ -275,8 +309,7 @@ BUSH_BOUNDS = define(
     "{film:si m} thick, as of an endless cylinder on a flat, from whose ends nothing leaks (friction coefficient "
     "{friction:.2g}), and by an estimate at least {journal:si m}, as of a rigid journal bearing of this length, which "
     "does not flatten (friction coefficient {turning:.2g}).",
-    'Judge touching by the lower bound (of --cases the column "film as journal bearing"), or solve it with a program '
-    "for elastic journal bearings.",
+    "Judge touching by the lower bound, {journal:si m}, or solve it with a program for elastic journal bearings.",
 )
 BUSH_WARMER_THAN_OIL = define(
     "bush-warmer-than-oil",

@@ -123,7 +123,9 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         found, names = context["found"], context["names"]
         meant = CATALOGUE.meant(found)
         hint = f' - did you mean "{meant}"?' if meant in names else nearest(found, names)
-        own = "a table of constants, or one of " if "catalogue of materials" in str(mistake["msg"]) else ""
+        own = ""
+        if "catalogue of materials" in str(mistake["msg"]):
+            own = "a table with youngs_modulus, poissons_ratio and other constants, or one of "
         return f'{key} = "{found}": {mistake["msg"]}{hint}; allowed: {own}{", ".join(names)}'
     if kind in ("model_type", "model_attributes_type", "dict_type"):
         return f"{where}: not a table; allowed: a table with {', '.join(sorted(fields_of_table(annotation)))}"

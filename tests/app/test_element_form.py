@@ -6,7 +6,7 @@ import tomllib
 import pytest
 
 from bem import InputError, load_scene
-from bem.app.element_form import answered, fields_of, file_of, scene_of_form, table_of
+from bem.app.element_form import answered, fields_from, fields_of, file_of, scene_of_form, table_of
 from bem.app.planning import shown_plan
 from bem.app.starts import TASKS
 from bem.elements.answer import balance_heat
@@ -51,6 +51,20 @@ def test_the_template_names_every_key_of_the_element(name):
     assert missing == {"name", *model.UNUSED_KEYS}
     for key in model.OTHER_KEYS:
         assert f"{key} = " in text
+
+
+def test_the_form_of_a_file_has_its_values_and_no_others():
+    """Tables as one value, keys of nested tables, text that looks like a number, and a key that no element has."""
+    file = tomllib.loads(element_template("plain-bush")) | {
+        "name": "pump", "first": {"youngs_modulus": "200 GPa", "poissons_ratio": 0.29}, "bore": "25.06 mm",
+        "description": "12", "oscilation": {"amplitude": "40 deg"},
+    }  # fmt: skip
+    del file["clearance"], file["heat_balance"]
+    fields = fields_from("plain-bush", file)
+    assert table_of("plain-bush", {field.key: field.value for field in fields}) == file
+    assert {field.key: field.basic for field in fields}["bore"]
+    with pytest.raises(InputError, match="no machine element"):
+        fields_from("no-bush", file)
 
 
 def test_a_bush_by_its_bore():

@@ -22,6 +22,7 @@ from bem.surfaces.examples import FOLDER
 
 pytest.importorskip("nicegui")
 from bem.app.workspace import Workspace
+from bem.elements.element import element_template
 
 sys.path.insert(0, str(Path(__file__).parent))
 import browser as chromium
@@ -134,6 +135,23 @@ def test_an_element_answers_on_its_page(shared_server, shared_folder, chrome):
     tab.click('[data-action="scene of mixed friction"]')
     tab.wait("location.pathname.includes('/scene/gear-pair')")
     assert tomllib.loads((shared_folder / "gear-pair.toml").read_text())["kind"] == "friction"
+
+
+@pytest.mark.internal
+def test_the_file_of_an_element_opens_in_its_form(shared_server, shared_folder, chrome):
+    """From the list of scenes, where it stands as an element, and by any address that names it."""
+    server, tab = shared_server, chrome.tab()
+    file = shared_folder / "pump.toml"
+    file.write_text(element_template("plain-bush").replace("500 N", "432 N"))
+    tab.go(server.address)
+    tab.click("[data-scene=pump]")
+    tab.wait("document.querySelector('input[data-key=radial_load]').value === '432 N'")
+    for path in ("/scene/pump", "/element/pump"):
+        tab.go(server.base + path)
+        tab.wait("document.querySelector('input[data-key=radial_load]').value === '432 N'")
+    tab.click('[data-action="scene of the film"]')
+    tab.wait("location.pathname.includes('/scene/pump-traction')")
+    file.unlink()
 
 
 @pytest.mark.internal
@@ -430,6 +448,10 @@ def test_errors_of_the_server_are_told_on_the_page(serve, chrome, tmp_path):
     many = ",".join(f"x-{i:03d}" for i in range(300))
     for path, words in (
         ("/run/none-001", "there is none"),
+        ("/scene/none", "not found"),
+        ("/scene/a%20b", "allowed"),
+        ("/element/none", "no machine element"),
+        ("/element/plain-bush?file=none", "not found"),
         ("/compare", "allowed: 2 to"),
         (f"/compare?runs={many}", "300 to compare"),
         ("/compare?runs=a-001,b-001", "there is none"),

@@ -38,6 +38,14 @@ def until(what, seconds=120.0):
 def test_scenes_are_files(workspace):
     workspace.save_scene("one", SMALL)
     assert workspace.scenes() == {"one": "contact"}
+    (workspace.folder / "bush.toml").write_text('element = "plain-bush"\n')
+    assert workspace.scenes() == {"one": "contact"}
+    assert workspace.elements() == {"bush": "plain-bush"}
+    assert workspace.element_table("bush") == {"element": "plain-bush"}
+    for other in ("one", "none"):
+        with pytest.raises(InputError, match="not found"):
+            workspace.element_table(other)
+    (workspace.folder / "bush.toml").unlink()
     assert load_scene(workspace.scene_table("one")).contact.mean_pressure == 80e6
     assert workspace.free_scene_name("one") == "one-2"
     assert workspace.free_scene_name("../a b") == "a-b"

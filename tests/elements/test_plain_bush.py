@@ -2,6 +2,7 @@
 
 import functools
 import math
+import re
 import tomllib
 from dataclasses import replace
 
@@ -12,7 +13,7 @@ from command_line import run_command
 from bem import InputError, plan_scene, run_scene
 from bem.app.element_form import answered, file_of
 from bem.contact.shaft_in_bush import ShaftInBush
-from bem.elements.answer import all_notes, answer, answer_notes, balance_heat, table_columns
+from bem.elements.answer import all_notes, answer, answer_notes, balance_heat, scene_notes, table_columns
 from bem.elements.bush_polymers import DRY_FRICTION as DRY_FRICTIONS
 from bem.elements.cases import columns
 from bem.elements.element import element_template, load_element
@@ -245,6 +246,11 @@ def test_a_film_as_thick_as_that_of_a_journal_bearing_is_outside_the_model():
     assert note.level is Level.OUTSIDE_MODEL
     assert 1.5 < note.values["film"] / note.values["journal"] < 2.1
     assert note.values["turning"] > note.values["friction"]
+    thicker, lower = (note.values[a] / note.values[b] for a, b in (("film", "journal"), ("friction", "turning")))
+    assert f"The film is {thicker:.2g} times that of the journal estimate, the friction {lower:.2g} times" in note
+    given = load_element(without(WATER, "shaft_diameter") | peek | {"oil": thick, "thermal": "off", "friction": 0.3})
+    (same,) = [one for one in answer_notes(given, runs) if one.code == BUSH_FLOATS.code]
+    assert same.values == note.values
     assert "journal bearing" in dict(answer(element, runs))["lambda ratio"]
     assert element.columns()["minimum_film [m]"][0] == pytest.approx(runs[0].minimum_film, rel=0.2)
     thin = load_element(WATER | {"thermal": "off"})
@@ -255,6 +261,103 @@ def test_a_film_as_thick_as_that_of_a_journal_bearing_is_outside_the_model():
     assert math.isnan(estimates[1])
     assert "journal_bearing_film_estimate [m]" not in columns([thin], [films])
     assert BUSH_LEAKS.code in codes(all_notes(thin, films))
+
+
+LIGHT = without(WATER, "shaft_diameter") | {
+    "bore": "20 mm", "clearance": "60 um", "length": "20 mm", "wall": "1.5 mm", "radial_load": "20 N",
+    "speed": "300 rpm", "second": "pa66", "rms_roughness": "0.4 um", "thermal": "off", "bulk_temperature": "40 degC",
+    "oil": {"grade": "ISO VG 32", "temperature": "40 degC"},
+}  # fmt: skip
+"""Bush whose film would be thicker than its radial clearance of 30 um."""
+LIGHT_WATER = without(LIGHT, "bulk_temperature", "rms_roughness") | {
+    "radial_load": "600 N", "friction": 0.1, "oil": {"grade": "water", "temperature": "25 degC"},
+}  # fmt: skip
+"""Bush that water does not cool, as its heat is taken to go to still air."""
+
+
+def test_a_film_thicker_than_the_clearance_is_that_of_a_journal_bearing(tmp_path):
+    """Answer, tables and cases have film, lambda ratio and friction of the estimate; the scene's run says that its film
+    is impossible."""
+    element = load_element(LIGHT)
+    runs = run_all(element)
+    journal = journal_film(
+        load=20, radius=10e-3, clearance=30e-6, length=20e-3, viscosity=element.model.film_oil.build().viscosity,
+        sliding_speed=math.pi * 5 * (20e-3 - 60e-6),
+    )  # fmt: skip
+    assert runs[0].impossible_film > 60e-6
+    assert runs[0].minimum_film == pytest.approx(journal.minimum_thickness, rel=1e-9, abs=0)
+    assert runs[0].film_ratio == pytest.approx(journal.minimum_thickness / 0.4e-6, rel=1e-9, abs=0)
+    power = journal.friction * 20 * element.model.sliding_speed
+    (note,) = [note for note in all_notes(element, runs) if note.level is Level.OUTSIDE_MODEL]
+    assert note.values["reason"] == "beyond"
+    rows = dict(answer(element, runs))
+    assert rows["lambda ratio"].startswith(
+        f"outside the model, about {runs[0].film_ratio:.2g}: minimum film about 20 um"
+    )
+    assert rows["friction power"].startswith(
+        f"about {power:.2g} W (friction coefficient about {journal.friction:.2g} by"
+    )
+    found, heavy = columns([element, load_element(WATER)], [runs, run_all(load_element(WATER))]), 1
+    assert found["solved_minimum_film [m]"][0] == runs[0].minimum_film
+    assert found["friction_power [W]"][0] == pytest.approx(power, rel=1e-9, abs=0)
+    assert math.isnan(found["minimum_film [m]"][0])
+    assert found["minimum_film [m]"][heavy] > 0
+    assert all(
+        math.isnan(table_columns(element, runs)[name][0]) for name in ("minimum_film [m]", "film_over_roughness")
+    )
+    (tmp_path / "light.toml").write_text(table_text(LIGHT))
+    (tmp_path / "loads.csv").write_text("radial_load [N]\n20\n600\n")
+    bem = functools.partial(run_command, cwd=tmp_path)
+    light, thick = bem("element", "light.toml", "--cases", "loads.csv").stdout.splitlines()[-2:]
+    assert light.count("about") == 5
+    assert re.search(r"about 20 µm +about 20 µm +about 49", light)
+    assert thick.count("about") == 3
+    made = bem("element", "light.toml", "--scene", "light-film.toml")
+    said = made.stdout + made.stderr
+    assert "1 outside the model\n" in said
+    assert "Film, lambda ratio and friction do not hold" in said
+    assert "caution" not in said
+    assert "impossible" in (tmp_path / "light-film.toml").read_text()
+
+
+def test_a_heat_balance_where_the_film_just_fills_the_clearance():
+    """The friction jumps there, so that no temperature balances the heat: the answer is that of the jump."""
+    hot = without(LIGHT, "bulk_temperature") | {
+        "radial_load": "60 N", "speed": "1500 rpm", "wall": "2 mm", "heat_balance": {"conductance": "0.015 W/K"},
+        "oil": {"grade": "ISO VG 32", "temperature": "30 degC"},
+    }  # fmt: skip
+    element = balance_heat(load_element(without(hot, "rms_roughness")))
+    (one,) = run_all(element)
+    assert (one.impossible_film or one.minimum_film) == pytest.approx(30e-6, rel=0.01, abs=0)
+    assert "the friction jumps" in dict(answer(element, [one]))["temperatures"]
+    slightly = balance_heat(load_element(without(hot, "rms_roughness") | {"heat_balance": {"conductance": "0.02 W/K"}}))
+    assert "jumps" not in dict(answer(slightly, run_all(slightly)))["temperatures"]
+
+
+@pytest.mark.parametrize(("kind", "places"), [("traction", "roller.radius"), ("friction", "contact.radius")])
+def test_the_run_of_a_bush_s_scene_says_that_its_film_is_too_thick(kind, places, tmp_path):
+    """At any speed by the bush that the scene names; a cylinder of another radius is not its equivalent."""
+    element = load_element(LIGHT | {"radial_load": "600 N"})
+    scene = element.scene(element.worst(), kind) | {"outputs": {"errors": False}}
+    assert "at 313 mm/s" in scene["description"]
+    if kind == "friction":
+        scene |= {
+            "speeds": {"values": ["20 mm/s", "0.1 m/s", "1 m/s"], "slide_roll_ratio": 2.0},
+            "film": {"points": 200},
+        }
+    found = run_scene(scene, tmp_path / "run", figures=False)
+    notes = {note["code"]: note for note in found.summary["notes"]}
+    assert notes[BUSH_FLOATS.code]["where"] == ("speed 1 m/s" if kind == "friction" else "")
+    assert (BUSH_BOUNDS.code in notes) == (kind == "friction")
+    assert found.summary["outside_model"]
+    (answered_note,) = [note for note in all_notes(element, run_all(element)) if note.code == BUSH_FLOATS.code]
+    if kind == "traction":
+        assert notes[BUSH_FLOATS.code]["text"] == str(answered_note)
+    table, key = places.split(".")
+    with pytest.raises(InputError, match=f"{places} is not that of bush.bore"):
+        load_scene(scene | {table: scene[table] | {key: "3 m"}})
+    with pytest.raises(InputError, match="clearance is not below the bore"):
+        load_scene(scene | {"bush": {"bore": "20 mm", "clearance": "30 mm"}})
 
 
 def test_a_film_that_reaches_far_around_stands_between_two_bounds():
@@ -686,8 +789,9 @@ def test_an_assumed_friction_is_that_on_steel():
     [
         ({"speed": None}, "neither of speed"),
         ({"oscillation": {"amplitude": "20 deg", "frequency": "2 1/s"}}, "both of speed"),
-        ({"clearance": "3 mm"}, "clearance"),
-        ({"wall": "0.1 mm"}, "coating"),
+        ({"clearance": "3 mm"}, "allowed: below 2 mm"),
+        ({"wall": "0.1 mm"}, "at least 200 um.*upper.layer.thickness"),
+        ({"first": "stainless"}, "youngs_modulus, poissons_ratio"),
         ({"wall": None}, "housing without wall"),
         ({"permitted_wear": "2 mm"}, "permitted_wear"),
         ({"pv_limit": "0.2 MPa"}, "pressure times a speed"),
@@ -700,6 +804,42 @@ def test_mistakes_are_said_with_what_is_allowed(change, words):
     table = {key: value for key, value in (DRY | change).items() if value is not None}
     with pytest.raises(InputError, match=words):
         load_element(table)
+
+
+def test_temperatures_near_the_limit_have_a_digit_more():
+    """100.2 °C above 100 °C; what is shown as the limit is not above it."""
+    for warm, flagged in (("100.2 degC", True), ("100.02 degC", False)):
+        own = {"second": "pa66", "friction": 0.1, "heat_balance": {"conductance": "1 MW/K", "ambient": warm}}
+        element = load_element(DRY | own)
+        found = [note for note in answer_notes(element, ()) if note.code == BUSH_OVER_LIMIT.code]
+        assert ("bush 100.2 °C" in dict(answer(element, ()))["temperatures"]) == flagged
+        assert ["It would reach 100.2 °C, above 100 °C" in note for note in found] == [True] * flagged
+
+
+def test_a_liquid_that_boils_in_assumed_still_air_says_so():
+    """The action names the keys that end the assumption; with a conductance of the file it is another one."""
+    still = balance_heat(load_element(LIGHT_WATER))
+    (note,) = [note for note in all_notes(still, run_all(still)) if note.code == BUSH_LIQUID_LOST.code]
+    assert "still air is assumed" in note.line
+    cooled = LIGHT_WATER | {"heat_balance": {"conductance": "5 W/K"}}
+    assert BUSH_LIQUID_LOST.code not in codes(all_notes(balance_heat(load_element(cooled)), ()))
+    known = load_element(LIGHT_WATER | {"friction": 0.2, "heat_balance": {"conductance": "0.1 W/K"}})
+    (note,) = [note for note in answer_notes(balance_heat(known), ()) if note.code == BUSH_LIQUID_LOST.code]
+    assert "still air" not in note
+
+
+def test_notes_and_kinds_of_scenes_are_those_that_a_bush_has(tmp_path):
+    """A dry scene has no words on films; a life of two bodies that pass is none of a bush; the motion is named."""
+    element = load_element(WATER)
+    assert BUSH_LEAKS.code in codes(scene_notes(element, (), "traction"))
+    assert {BUSH_LEAKS.code, NO_HEAT.code, BUSH_SWINGS.code}.isdisjoint(codes(scene_notes(element, (), "contact")))
+    with pytest.raises(InputError, match="a bush wears at one place"):
+        element.scene(element.worst(), "running-in-life")
+    swings = without(DRY, "speed") | {"oscillation": {"amplitude": "40 deg", "frequency": "0.5 Hz"}}
+    (tmp_path / "swings.toml").write_text(table_text(swings))
+    said = run_command("element", "swings.toml", cwd=tmp_path).stdout
+    assert said.splitlines()[0].endswith("plain-bush, ±40°, 0.5 Hz")
+    assert "1 contact: --contacts shows it, --table FILE.csv and --figure FILE.png write it." in said
 
 
 def test_the_command(tmp_path):

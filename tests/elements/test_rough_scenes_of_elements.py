@@ -50,6 +50,10 @@ def test_every_kind_of_scene_of_every_element_plans(name, kind):
         with pytest.raises(InputError, match="line contact"):
             element.scene(place, kind)
         return
+    if kind == LIFE and name == "plain-bush":
+        with pytest.raises(InputError, match="a bush wears at one place"):
+            element.scene(place, kind)
+        return
     made = element.scene(place, kind)
     scene, plan = plan_scene(made)
     assert scene.kind == kind

@@ -75,6 +75,10 @@ def test_warnings_of_a_plan_are_lines_and_remarks_a_number(capsys):
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "1 caution, 1 remark (in the report)"
     assert len(lines) == 2
+    show_warnings([BEYOND])
+    assert capsys.readouterr().out.splitlines()[0] == "1 outside the model"
+    show_warnings([BEYOND, FILM_SPIKE(remedy="")])
+    assert capsys.readouterr().out.splitlines()[0] == "1 outside the model, 1 caution"
     show_remarks([FILM_SPIKE(remedy=""), REMARK])
     assert capsys.readouterr().out == f"  {REMARK}\n"
     show_warnings([])

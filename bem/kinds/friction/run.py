@@ -59,7 +59,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     for speeds in pairs[len(curve.points) :]:
         with context.timer("load sharing"), in_words_of_the_scene():
             own, flattened = _solved(scene, setup, (lower, upper), speeds, curve.last)
-        notes = _notes(own)
+        notes = _notes(own) + _bush_notes(scene, own, (lower + upper).std())
         if scene.outputs.errors:
             bars = _bars(setup, height, own, flattened, context)
             errors.append(table(bars.values, bars.parts, RULES, ORIGINS))
@@ -122,6 +122,24 @@ def _notes(solution: MixedSolution) -> tuple[Note, ...]:
     share = solution.film_load / (solution.film_load + solution.contact_load)
     own = [note for note in solution.notes if note not in of_oil]
     return notes_of_balance(own, solution.film.notes, solution.friction, share)
+
+
+def _bush_notes(scene: FrictionScene, solution: MixedSolution, rms: float) -> tuple[Note, ...]:
+    """Return the note on a film under the whole load that is too thick for the bush of the scene.
+
+    rms : rms height of the patch [m].
+    """
+    if scene.bush is None or solution.status is not Status.CONVERGED:
+        return ()
+    assert scene.contact.width is not None
+    return scene.bush.film_notes(
+        float(solution.lambda_ratio * rms) if rms > 0 else float(solution.minimum_film),
+        friction=float(abs(solution.friction)),
+        load=float(solution.load),
+        length=scene.contact.width,
+        viscosity=scene.oil.build().viscosity,
+        mean_speed=0.5 * sum(solution.speeds),
+    )
 
 
 def _flow_factors(

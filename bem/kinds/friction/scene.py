@@ -14,9 +14,10 @@ from bem.kinds.friction.patch import with_patch
 from bem.kinds.friction.waves import FrictionFilmScene, check_flattening
 from bem.scenes import build, sources
 from bem.scenes.axes import Axis, listed, variants
-from bem.scenes.common import LineGridScene, OutputsScene, Repetitions
+from bem.scenes.common import LineGridScene, OutputsScene, Repetitions, problem
 from bem.scenes.keys import key
 from bem.scenes.records import Figure
+from bem.scenes.tables.bush import BushScene
 from bem.scenes.tables.sharing import CurveScene, SurfaceVariant
 
 
@@ -42,12 +43,25 @@ class FrictionScene(CurveScene):
     repetitions: Repetitions = key(
         "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1
     )
+    bush: BushScene | None = key(
+        "Bush of which the cylinder is the equivalent: films too thick for its clearance are noted.",
+        "expert",
+        default=None,
+    )
 
     def cited_methods(self) -> Iterator[Mapping[str, str]]:
         """See `SceneModel`."""
         yield from super().cited_methods()
         if self.by_waves:
             yield sources.WAVES
+
+    @model_validator(mode="after")
+    def _equivalent(self) -> FrictionScene:
+        if self.bush is not None:
+            if self.contact.point_radii is not None or self.contact.radius is None:
+                raise problem("a table bush under a ball", "a cylinder, or no table bush")
+            self.bush.check_radius(self.contact.radius, "contact.radius")
+        return self
 
     @model_validator(mode="after")
     def _flattened(self) -> FrictionScene:

@@ -44,6 +44,17 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
     tell(context, found.notes)
     if scene.roughness is not None and film.minimum_thickness < scene.roughness:
         context.note(FILM_THINNER_THAN_ROUGHNESS(where=""))
+    figures: dict[str, Any] = traction_figures(case, found)
+    if scene.bush is not None and found.status is Status.CONVERGED:
+        about = scene.bush.film_notes(
+            film.minimum_thickness,
+            friction=abs(figures["traction_coefficient"]),
+            load=case.load * case.width,
+            length=case.width,
+            viscosity=case.lubricant.viscosity,
+            mean_speed=0.5 * sum(case.speeds),
+        )
+        tell(context, about)
     if heights is not None:
         hertz = cylinder_contact(radius=case.radius, contact_modulus=case.contact_modulus, load=case.load)
         with context.timer("waves"):
@@ -51,7 +62,6 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
         tell(context, wave_notes(ripples))
     part = "film" if film.status is not Status.CONVERGED else "heat"
     wanted = scene.outputs.errors and found.status is Status.CONVERGED
-    figures: dict[str, Any] = traction_figures(case, found)
 
     def bars() -> ErrorBars:
         smooth = traction_bars(case, found)

@@ -15,6 +15,7 @@ from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneMode
 from bem.scenes.keys import key
 from bem.scenes.oil import OilScene
 from bem.scenes.records import Figure
+from bem.scenes.tables.bush import BushScene
 from bem.scenes.tables.heat import HEAT_REASON, check_film_heat, check_supply_of_heat, knows_film_heat
 from bem.scenes.tables.passing import PatchScene
 from bem.scenes.tables.supply import SupplyScene
@@ -52,6 +53,11 @@ class TractionScene(SceneModel):
         "Mesh of the oil film, and how roughness enters it.", "basic", default=FilmPointsScene()
     )
     patch: PatchScene | None = key("Grid of the rough patch; needed where a body is rough.", "advanced", default=None)
+    bush: BushScene | None = key(
+        "Bush of which the cylinder is the equivalent: films too thick for its clearance are noted.",
+        "expert",
+        default=None,
+    )
     outputs: OutputsScene = key(
         "Results besides the standard ones: error estimates.", "advanced", default=OutputsScene()
     )
@@ -64,6 +70,10 @@ class TractionScene(SceneModel):
 
     @model_validator(mode="after")
     def _complete(self) -> TractionScene:
+        if self.bush is not None and self.along is None:
+            self.bush.check_radius(self.roller.radius, "roller.radius")
+        elif self.bush is not None:
+            raise problem("along beside a table bush", "one of them")
         if self.by_waves:
             check_waves(self)
             if self.along is not None:
