@@ -525,7 +525,7 @@ WEAR_OUTSIDE_REGION = define(
     "wear-outside-region",
     INFO,
     "Wear reaches beyond the contact region of Sq and worn depth.",
-    "{share:%} of the worn volume lies outside Hertz' contact of smooth bodies{of}: rough summits touch beside it.",
+    "{share:%} of the worn volume lies outside it{of}. The region is {region}; rough summits touch beside it.",
     "Read the worn volume and the map of the worn surface for all of it.",
 )
 CHANGE_WITHIN_ERROR = define(

@@ -12,7 +12,7 @@ import numpy as np
 from bem.physical_constants import ZERO_CELSIUS
 from bem.plots.labels import label, prefix
 from bem.quantities import plain_digits, with_signs
-from bem.scenes.records import INPUTS, OIL, TELLING, scatter_key, unit_of
+from bem.scenes.records import INPUTS, OIL, TELLING, region_words, scatter_key, unit_of
 
 _SPREAD, _ERROR = "_spread", "_error"
 _TELLING = tuple(f"{name}_{unit}" for name, unit in TELLING.items())
@@ -57,13 +57,11 @@ def reported_mean(name: str, summary: Mapping[str, Any]) -> str:
 
 
 def window_of(name: str, summary: Mapping[str, Any]) -> str:
-    """Return the window of a figure of a running-in: " (last 38 cycles)" of means over cycles, the width of the contact
-    region of figures of it; "" of others."""
+    """Return the window of a figure of a running-in: " (last 38 cycles)" of means over cycles, the region of figures of
+    the contact region; "" of others."""
     if name in _OF_REGION:
-        width = summary.get("contact_region_width_um")
-        widths = set(width) if isinstance(width, list) else {width}
-        (only,) = widths if len(widths) == 1 else (None,)
-        return f" (Hertz' contact, {only:.3g} µm wide)" if isinstance(only, int | float) else ""
+        words = region_words(summary.get("contact_region"), summary.get("contact_region_width_um"))
+        return f" ({words.replace(' um', ' µm')})" if words else ""
     window = summary.get(f"{_WINDOWS.get(name, '')}_cycles")
     return f" (last {window} cycles)" if isinstance(window, int) else ""
 

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from bem.errors import Status
 from bem.physical_constants import ZERO_CELSIUS
+from bem.quantities import si
 
 Which = Literal["each", "first", "last"]
 
@@ -213,6 +214,27 @@ def columns(rows: Iterable[Any], names: Iterable[str], prefix: str = "") -> dict
 
 OIL = "_oil_scatter"
 """End of the name of a friction coefficient's scatter from the constants of the oil, beside the coefficient's own."""
+TRACK, CONTACT = "track", "contact"
+"""Values of `contact_region` in a summary of running-in: where Sq and worn depth are taken."""
+
+
+def region_words(region: object, width: object) -> str:
+    """Return the words for the region of Sq and worn depth: Hertz' contact, or the track of a body that moves.
+
+    region : `contact_region` of the summary; another value, of an older run, says the width alone.
+    width : `contact_region_width_um`, one number or one of each case; None where the region is the whole grid.
+    """
+    widths = set(width) if isinstance(width, list) else {width}
+    if widths == {None}:
+        return {TRACK: "the track, which is the whole grid", CONTACT: "the whole grid"}.get(str(region), "")
+    (only,) = widths if len(widths) == 1 else (None,)
+    size = si(1e-6 * only, "m") if isinstance(only, int | float) else ""
+    if region == TRACK:
+        return f"the track, a strip as wide as Hertz' contact{size and f', {size},'} over the whole grid"
+    named = "Hertz' contact" if region == CONTACT else "contact region"
+    return f"{named}{size and f', {size} wide'}"
+
+
 OIL_SCATTER = "scatter of the friction coefficient from the oil's constants, half-width"
 """What it is."""
 

@@ -49,15 +49,23 @@ def share_outside(before: FloatArray, after: FloatArray, strip: NDArray[Any]) ->
 
 
 def width_of(strip: NDArray[Any], grid: Grid) -> float | None:
-    """Return the width of a strip [m]: along x, or of a track (1, ny) along y; None of the whole surface."""
+    """Return the width of a strip [m]: along x, or of a track (1, ny) along y; None of the whole surface.
+
+    Round-off of the fractions of cells does not count: a fraction of 1 - 1e-16 is a whole cell.
+    """
     weights = np.asarray(strip, dtype=np.float64)
     if weights.ndim == 1:
         weights = weights[:, None]
-    if bool((weights == 1).all()):
+    if float(weights.min()) > 1 - _WHOLE:
         return None
     if weights.shape[0] == 1:
         return float(weights.sum()) * grid.spacing[1]
     return float(weights.sum(axis=0).max()) * grid.spacing[0]
+
+
+_WHOLE = 1e-9
+"""Part of a cell by which it may miss a strip and still count as inside; fractions have the round-off of positions over
+a cell, below 1e-12."""
 
 
 def _weights(strip: NDArray[Any], shape: tuple[int, ...]) -> FloatArray:
@@ -70,10 +78,10 @@ def track_of(strip: NDArray[Any]) -> FloatArray:
     """Return the fraction of the cells (1, ny) or (1, 1) on the track of a contact on a body that moves along x.
 
     strip : (nx,) or (nx, ny), weight of rows or cells in the contact. All places of a track wear alike, so all rows of
-    the body have the same weight.
+    the body have the same weight. Rows (nx,) are those of a contact without ends along y, whose track is everything.
     """
     parts = np.asarray(strip, dtype=np.float64)
-    return parts.max(axis=0, keepdims=True).reshape(1, -1)
+    return np.ones((1, 1)) if parts.ndim == 1 else parts.max(axis=0, keepdims=True)
 
 
 def contact_strip(pressure: FloatArray, rows: FloatArray | None = None, before: FloatArray | None = None) -> FloatArray:

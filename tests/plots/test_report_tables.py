@@ -16,6 +16,7 @@ from bem.plots.tables import (
     origin_table,
     place_tables,
     summary_of_points,
+    window_of,
 )
 from bem.scenes import get_kind
 from bem.scenes.records import UNITS, figures
@@ -392,3 +393,20 @@ def test_the_table_of_the_load_share_says_its_formula():
     (table,) = figure_tables({"load_share": [share | {"points": 9}]}, ["load_share"])
     assert "exp(-b Λ^c)" in table.title
     assert {"b", "c"} <= set(table.head)
+
+
+@pytest.mark.parametrize(
+    ("region", "width", "words"),
+    [
+        ("contact", [27.5, 27.5], " (Hertz' contact, 27.5 µm wide)"),
+        ("track", [27.5, 27.5], " (the track, a strip as wide as Hertz' contact, 27.5 µm, over the whole grid)"),
+        ("track", [20.0, 27.5], " (the track, a strip as wide as Hertz' contact over the whole grid)"),
+        ("track", None, " (the track, which is the whole grid)"),
+    ],
+)
+def test_figures_of_a_track_are_not_said_to_be_of_the_contact(region, width, words):
+    """Sq and worn depth of a ball's track were labelled as those of Hertz' circle, whose volume is eight times less."""
+    summary = {"contact_region": region, "contact_region_width_um": width}
+    assert window_of("Sq_final_nm", summary) == words
+    assert window_of("worn_depth_nm", summary) == words
+    assert window_of("wear_volume_um3", summary) == ""

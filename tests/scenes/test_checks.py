@@ -679,7 +679,7 @@ OUTCOMES = {
     ),
     "wear_outside_the_contact_region": (
         "running-in-stribeck",
-        (Outcome({"volume_outside_region": [0.05, 0.2]}, {}), "20 % of the worn volume lies outside"),
+        (Outcome({"volume_outside_region": [0.05, 0.2]}, {}), "20 % of the worn volume lies outside it in 1 of 2 loops. The region is"),
         Outcome({"volume_outside_region": [0.05, 0.09]}, {}),
     ),
     "running_in_within_its_error": (

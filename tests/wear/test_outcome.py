@@ -20,6 +20,7 @@ from bem.wear.outcome import (
     share_outside,
     sizes_over_cycles,
     strip_wear,
+    track_of,
     width_of,
 )
 from bem.wear.state import PARTICLE_FIELDS
@@ -143,3 +144,16 @@ def test_the_share_of_the_volume_outside_a_strip_and_its_width():
     assert width_of(strip, grid) == pytest.approx(1.5e-6)
     assert width_of(np.array([[0.5, 0.0]]), grid) == pytest.approx(1e-6)  # of a track
     assert width_of(np.ones((1, 1)), grid) is None
+
+
+def test_the_track_of_a_cylinder_is_the_whole_grid():
+    """Fractions of 1 - 1e-16 made its width one cell along y, and a contact narrower than a cell left wear outside."""
+    grid = Grid((24, 6), (0.1e-6, 16.25e-6))
+    for half_width in (1.0e-6, 0.97e-6, 0.03e-6):
+        track = track_of(hertz_fraction(grid, (half_width, math.inf)))
+        assert width_of(track, grid) is None
+        assert share_outside(np.ones(grid.shape), np.zeros(grid.shape), track) == 0.0
+    assert width_of(np.full(24, 1 - 1e-15), grid) is None
+    narrow = track_of(hertz_fraction(Grid((24, 24), (0.1e-6, 0.1e-6)), (0.8e-6, 0.5e-6)))
+    assert narrow.shape == (1, 24)
+    assert width_of(narrow, Grid((24, 24), (0.1e-6, 0.1e-6))) == pytest.approx(1.0e-6, rel=1e-2)

@@ -30,6 +30,7 @@ from bem.plots.style import (
     speed_axis,
     start_at_zero,
 )
+from bem.scenes.records import TRACK
 
 _MEASURED_RADIUS = (210e-9, 236e-9)  # dynamic light scattering at 0.01 m/s, 223 +- 13 nm; thesis, paper D
 Array = NDArray[Any]
@@ -128,11 +129,12 @@ def _roughness(run: Any) -> tuple[list[tuple[str, Array]], str]:
     if "Sq_over_cycles" not in run.dataset.variables:
         return list(grouped(run, "rms_height_over_cycles")), "Sq of the rows\nin contact"
     before, over = grouped(run, "Sq_initial"), grouped(run, "Sq_over_cycles")
+    region = "track" if run.summary.get("contact_region") == TRACK else "contact region"
     joined = [
         (group, np.concatenate([np.reshape(first, (-1, 1)), values], axis=-1))
         for (_, first), (group, values) in zip(before, over, strict=True)
     ]
-    return joined, "Sq of the\ncontact region"
+    return joined, f"Sq of the\n{region}"
 
 
 def _radius_over_speed(run: Any, figure: Figure) -> None:
@@ -271,8 +273,9 @@ FIGURES = (
     ),
     FigureKind(
         "wear-over-cycles",
-        "Sq of the contact region from before the first cycle to after the last (`Sq_initial` to `Sq_final`), volume "
-        "worn up to each cycle and particles of each cycle.",
+        "Sq of Hertz' contact (on a body that moves through it of the track, a strip as wide over the whole grid) from "
+        "before the first cycle to after the last (`Sq_initial` to `Sq_final`), volume worn up to each cycle and "
+        "particles of each cycle.",
         (
             *("cycle", "rms_height_over_cycles", "volume_over_cycles", "particles_over_cycles"),
             *("speed", "hardness"),

@@ -14,11 +14,13 @@ from bem.kinds.running_in.scene import RunningInScene
 from bem.scenes import pieces, wearing
 from bem.scenes.axes import Axis, over_last
 from bem.scenes.records import (
+    CONTACT,
     LAMBDA_MIXED,
     LAMBDA_WHOLE,
     MINIMUM_FILM,
     OIL,
     OIL_SCATTER,
+    TRACK,
     Figure,
     GridRecord,
     Series,
@@ -32,7 +34,7 @@ SETTLED, RUN_IN = (f"mean over the last cycles.{window} cycles" for window in ("
 even if the surface still changes."""
 _STRIP = (
     "of the wearing body, the lower one of two, in the contact region "
-    "(Hertz' contact; on a body that moves its whole track)"
+    "(Hertz' contact; on a body that moves through it the track, a strip as wide over the whole grid)"
 )
 _RADIUS = "equivalent radius of the particles of the last cycles.settled cycles"
 
@@ -63,7 +65,10 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     contact_region_width: Annotated[
         float | None,
         Figure(
-            "um", "width of the contact region of Sq and worn depth, where it is not all", optional=True, unjudged=True
+            "um",
+            "width of the contact region of Sq and worn depth (along y of a track), where it is not the whole grid",
+            optional=True,
+            unjudged=True,
         ),
     ] = field(default=None, kw_only=True)
     volume_outside_region: Annotated[
@@ -197,6 +202,7 @@ def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[Run
 
     summary: dict[str, Any] = {"cycles": scene.cycles.count, "load_N": scene.load, "reported_mean": scene.sizes.report}
     summary |= {"averaged_cycles": scene.cycles.averaged, "settled_cycles": scene.cycles.settled}
+    summary |= {"contact_region": TRACK if wearing.wears_on_a_track(scene) else CONTACT}
     summary |= pieces.particles_of(scene)
     if len(scene.hardnesses) <= 2:
         return summary
