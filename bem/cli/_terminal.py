@@ -17,6 +17,7 @@ import typer
 
 from bem.cli._streams import results_saved
 from bem.notes import OUTSIDE, Level, Note, as_note, of_summary
+from bem.notes.contact import CONTACT_AT_EDGE, edge_notes_as_one
 from bem.notes.merge import identity
 from bem.notes.note import LevelledText
 
@@ -45,8 +46,8 @@ class Terminal:
             self._bars.stop()
             self._bars = None
         held, self._held = self._held, []
-        for note in held:
-            self.say(f"{OUTSIDE}{note.line}")
+        for note in edge_notes_as_one(held):
+            self.say(f"{OUTSIDE if note.level is Level.OUTSIDE_MODEL else 'caution: '}{note.line}")
 
     def progress(self, done: int, total: int, what: str, figures: Mapping[str, float]) -> None:
         """See `bem.runs.Watcher`."""
@@ -80,16 +81,18 @@ class Terminal:
         if text.level is Level.INFO or keys & self._noted:
             return
         self._noted |= keys
-        if text.level is Level.OUTSIDE_MODEL:
-            self._held.append(text)
+        if text.level is Level.OUTSIDE_MODEL or text.code == CONTACT_AT_EDGE.code:
+            self._held.append(text)  # the results say whether the edge cuts the contact off
         else:
             self.say(f"caution: {text.line}")
 
     def numbers(self, summary: Mapping[str, Any], headline: Sequence[str]) -> None:
         """See `bem.runs.Watcher`: the numbers at once, pictures take longer."""
-        self._held.clear()
+        texts = {note["text"] for note in of_summary(summary)}
+        lines = {note.headline: note.line for note in self._held if note.level is Level.OUTSIDE_MODEL}
+        self._held = [note for note in self._held if note.level is not Level.OUTSIDE_MODEL and str(note) in texts]
         self.__exit__()
-        print_numbers(summary, headline)
+        print_numbers(summary, headline, lines)
         sys.stdout.flush()
         self.printed = True
 
@@ -405,8 +408,11 @@ def show_remarks(notes: Sequence[str]) -> None:
             print_text(f"  {note}")
 
 
-def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
-    """The figures of a run."""
+def print_numbers(summary: Mapping[str, Any], headline: Sequence[str], lines: Mapping[str, str] | None = None) -> None:
+    """Print the figures of a run.
+
+    lines : what is shown of notes outside the model, by their headlines; the headline alone where it is not given.
+    """
     from bem.notes.accuracy import NO_ERROR_BAR
     from bem.plots.report import NO_BAR, status_words, summary_rows
     from bem.plots.tables import input_share_tables, is_list, place_tables
@@ -414,7 +420,7 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     known = [name for name in headline if summary.get(name) is not None]
     rows = summary_rows(summary, [name for name in known if not is_list(summary[name])])
     rows.append(("status", status_words(summary)))
-    rows += [("outside the model", text) for text in summary.get("outside_model", ())]
+    rows += [("outside the model", (lines or {}).get(text, text)) for text in summary.get("outside_model", ())]
     if remarks := sum(note["level"] == Level.INFO for note in of_summary(summary)):
         rows.append(("remarks", f"{remarks}, in the report and in summary.json"))
     rows.append(("time", f"{summary['wall_time_s']:.1f} s"))

@@ -176,7 +176,15 @@ def unresolved_spots(touching: NDArray[np.bool_], times: float, periodic: tuple[
     touching : (nx, ny), cells in contact. times : their area over the load over the hardness. of : which contact.
     """
     narrow = narrow_share(touching, periodic)
-    return CONTACT_UNRESOLVED(times=times, of=of, narrow=narrow, reason="spots" if narrow > _MOSTLY else "edges")
+    counted = 100 * float(touching.mean())
+    return CONTACT_UNRESOLVED(
+        times=times,
+        of=of,
+        narrow=narrow,
+        least=counted / times,
+        counted=counted,
+        reason="spots" if narrow > _MOSTLY else "edges",
+    )
 
 
 _MOSTLY = 0.5

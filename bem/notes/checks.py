@@ -435,6 +435,16 @@ HARDNESS_DECIDES = define(
             "without work hardening. The contact area is then load over "
             "hardness and tells little of the surfaces."
         ),
+        "reached-of-area": (
+            "{area:%} of the contact area, which carries {load:%} of the load, is at the hardness, {cap:si Pa}; "
+            "work hardening is left out. Counted in cells, which are touched in part at edges, these are {cells:%} "
+            "with {cells_load:%} of the load."
+        ),
+        "area-is-load-of-area": (
+            "{area:%} of the contact area, which carries {load:%} of the load, is at the hardness, {cap:si Pa}, "
+            "without work hardening. The contact area is then load over hardness and tells little of the surfaces. "
+            "Counted in cells, which are touched in part at edges, these are {cells:%} with {cells_load:%} of the load."
+        ),
         "within-error": (
             "Nothing is at the hardness here, {cap:si Pa}, but it lies within the error of the highest pressure: on "
             "finer cells a part of the contact may be."

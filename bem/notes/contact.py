@@ -1,6 +1,8 @@
 """Notes on dry contacts, on partial slip and on flow factors."""
 
-from bem.notes.note import Level, Reason, define
+from collections.abc import Iterable
+
+from bem.notes.note import Level, Note, Reason, define
 
 OUTSIDE_MODEL, CAUTION, INFO = Level.OUTSIDE_MODEL, Level.CAUTION, Level.INFO
 
@@ -11,7 +13,7 @@ CONTACT_AT_EDGE = define(
     reasons={
         "grid": Reason(
             "The grid is {length:si m} along {axis} for a Hertz contact of {size:si m}.",
-            "Take {wanted:si m} or more.",
+            "Set {key} to {wanted:si m} or more.",
             foreseen=True,
         ),
         "punch": Reason(
@@ -24,6 +26,12 @@ CONTACT_AT_EDGE = define(
             "Take a larger grid, or a periodic one for a part of a larger contact; of a long cylinder, a slice that is"
             " periodic along y only (grid.periodic = [false, true]).",
         ),
+        "cut-off": Reason(
+            "It reaches the ends of {axes}, whose outermost cells carry {share:%} of the load: the bodies are solved"
+            " as if they ended there.",
+            "{action}",
+            OUTSIDE_MODEL,
+        ),
         "share": Reason(
             "It reaches the ends of {axes}, whose outermost cells carry {share:%} of the load: the bodies are solved"
             " as if they ended there.",
@@ -32,6 +40,23 @@ CONTACT_AT_EDGE = define(
         ),
     },
 )
+
+
+def edge_notes_as_one(notes: Iterable[Note]) -> list[Note]:
+    """Return notes in which a contact that the edge cuts off is said once, by its most severe note.
+
+    Notes on other contacts of a scene stay where the severe ones do not hold for all of it.
+    """
+    given = list(notes)
+    edge = [note for note in given if note.code == CONTACT_AT_EDGE.code]
+    beyond = [note for note in edge if note.level is OUTSIDE_MODEL]
+    if not beyond:
+        return given
+    everywhere = [note for note in beyond if not note.where][:1]
+    kept = everywhere or [note for note in edge if note.values.get("reason") != "grid"]
+    return [note for note in given if note.code != CONTACT_AT_EDGE.code or any(note is one for one in kept)]
+
+
 SECOND_CONTACT = define(
     "second-contact",
     INFO,
@@ -110,14 +135,15 @@ CONTACT_UNRESOLVED = define(
             headline="The cells do not resolve the contact: only {cells:count cell} in contact.",
         ),
         "spots": Reason(
-            "The true area lies between the load over the hardness and the counted area{of}, which is {times:.2f}"
-            " times larger.",
+            "The true area{of} lies between {least:.3g} % of the grid (load over the hardness) and {counted:.3g} % (all"
+            " cells in contact, {times:.2f} times as much). The area of the results counts cells at edges in part.",
             "Take a finer grid; of a measured surface measure with a finer spacing, as finer cells only interpolate.",
             headline="Contact spots are one or two cells wide; their area is uncertain.",
         ),
         "edges": Reason(
-            "The true area lies between the load over the hardness and the counted area{of}, which is {times:.2f}"
-            " times larger; spots of one or two cells are {narrow:%} of it, the rest is at the edges of wider ones.",
+            "The true area{of} lies between {least:.3g} % of the grid (load over the hardness) and {counted:.3g} % (all"
+            " cells in contact, {times:.2f} times as much; {narrow:%} of them in spots of one or two cells). The area"
+            " of the results counts cells at edges in part.",
             "Take a finer grid; of a measured surface measure with a finer spacing, as finer cells only interpolate.",
             headline="The cells do not resolve the edges of contact spots; the area is uncertain.",
         ),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Sequence
 from pathlib import Path
@@ -94,8 +95,8 @@ def _ranked(datasets: Sequence[Any]) -> list[str]:
     return [name for _, name in sorted(ranked, key=lambda item: item[0])]
 
 
-_LONGEST_TITLE = 84
-"""Characters of a panel's title, two lines; the rest of a longer text is left out."""
+_LONGEST_TITLE = 110
+"""Characters of a panel's title, three lines; a longer text is shortened (`short_title`)."""
 
 
 def _draw(axes: Any, group: Sequence[Panel], dashes: dict[str, str]) -> None:
@@ -121,8 +122,15 @@ def _draw(axes: Any, group: Sequence[Panel], dashes: dict[str, str]) -> None:
     words = shown.along if len(shown.along) < 40 else textwrap.shorten(shown.along, 40, placeholder=" ...")
     axes.set_xlabel(label(words, x_unit))
     axes.set_ylabel(unit)
-    title = textwrap.shorten(shown.title, _LONGEST_TITLE, placeholder=" ...")
-    axes.set_title("\n".join(textwrap.wrap(title, 42)), loc="left")
+    axes.set_title("\n".join(textwrap.wrap(short_title(shown.title), 42)), loc="left")
+
+
+def short_title(text: str) -> str:
+    """Return a title of a panel: of a long one without brackets, then without what follows a semicolon."""
+    short = [text, re.sub(r"\s*\([^()]*\)", "", text)]
+    short.append(short[-1].split(";")[0])
+    fits = next((words for words in short if len(words) <= _LONGEST_TITLE), short[-1])
+    return textwrap.shorten(fits, _LONGEST_TITLE, placeholder=" ...")
 
 
 def _legend(figure: Any, labels: Sequence[str], dashes: dict[str, str]) -> None:

@@ -16,6 +16,7 @@ from bem.campaigns.jobs import Staff
 from bem.distributed.session import current_session
 from bem.errors import ConvergenceError, InputError, Status
 from bem.notes import Level, Note, outside
+from bem.notes.contact import edge_notes_as_one
 from bem.notes.merge import without_foreseen
 from bem.results.arrays import LEFT_OUT, Arrays, stacks_of_maps
 from bem.results.directory import RESULTS, RunDirectory, plain
@@ -196,10 +197,12 @@ def run_planned(
     # a note of a case that the scene's own check has made already, at another place, is left out
     made = {(note.code, note.texts) for note in notes}
     computed.notes[:] = [*notes, *(note for note in computed.notes if (note.code, note.texts) not in made)]
-    for note in outcome_warnings(facts, computed.outcome):
-        computed.notes.append(note)
-        watcher.note(note)
-    computed.notes[:] = without_foreseen(computed.notes)
+    told = set(computed.notes)
+    computed.notes.extend(outcome_warnings(facts, computed.outcome))
+    computed.notes[:] = without_foreseen(edge_notes_as_one(computed.notes))
+    for note in computed.notes:
+        if note not in told:
+            watcher.note(note)
     computed.notes.sort(key=lambda note: list(Level).index(note.level))  # the most serious ones first
     left_out = [] if fields else stacks_of_maps(computed.outcome.variables)
     return _write(directory, scene, computed, formats, watcher, left_out)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
@@ -194,17 +195,20 @@ def run_sweep(
 def _tell_notes(
     summaries: Sequence[Mapping[str, Any] | None], labels: Sequence[str], files: Sequence[Path], watcher: Watcher
 ) -> None:
-    """Tell the notes of the points' summaries, those of one code and place once: the most serious ones first, then the
-    most frequent, with the points that they hold for. Where the texts differ, that of the first of the most serious
-    points is shown with its label. Of remarks the headlines are told.
+    """Tell the notes of the points' summaries, those of one code, place and headline once: the most serious ones
+    first, then the most frequent, with the points that they hold for.
+
+    Where the texts differ, that of the first of the most serious points is shown with its label. Of remarks the
+    headlines are told.
 
     files : summary of each point, of which the one with most remarks is named.
     """
-    told: dict[tuple[str, str], dict[str, set[int]]] = {}  # points by text, by what is said
-    levels: dict[tuple[str, str], dict[Level, set[int]]] = {}
+    told: dict[tuple[str, ...], dict[str, set[int]]] = {}  # points by text, by what is said
+    levels: dict[tuple[str, ...], dict[Level, set[int]]] = {}
     for point, summary in enumerate(summaries):
         for note in of_summary(summary or {}):
-            said = (note["code"], note["text"] if note["code"] == PLAIN else note["where"])
+            plain = note["code"] == PLAIN
+            said = (note["code"], note["text"]) if plain else (note["code"], note["where"], _wording(note["text"]))
             told.setdefault(said, {}).setdefault(note["text"], set()).add(point)
             levels.setdefault(said, {}).setdefault(Level(note["level"]), set()).add(point)
     order = list(Level)
@@ -234,6 +238,11 @@ def _tell_notes(
         most_told = max(range(len(files)), key=lambda point: sum(point in number[said] for said in remarks))
         where = f'read "notes" in {files[most_told]} (each point has its own)'
         watcher.note(LevelledText(f"{counted(len(remarks), 'remark')}: {where}"))
+
+
+def _wording(text: str) -> str:
+    """Return the first sentence of a note without its numbers: notes of other headlines are other notes."""
+    return re.sub(r"\d+(\.\d+)?", "", text.replace(OUTSIDE, "", 1).partition(". ")[0])
 
 
 def _points_said(points: set[int], labels: Sequence[str], count: int, first: str) -> str:

@@ -121,6 +121,12 @@ def parse_axis(text: str) -> Axis:
         values = tuple(part.strip() for part in _split(body, ","))
         if not all(values):
             raise _refused(text, "has an empty value")
+        if unit := _unit_of_last(values):
+            each = ", ".join(value if _NUMBER.fullmatch(value)[2] else f"{value} {unit}" for value in values)  # type: ignore[index]
+            raise InputError(
+                f'--over "{_shown(text)}": only the last value has a unit, and a number alone is in the SI unit; '
+                f'allowed: a unit at each, such as {key}="{each}"'
+            )
     elif len(parts) == 2:
         first, last = _whole(parts[0]), _whole(parts[1])
         if first is None or last is None:
@@ -136,6 +142,23 @@ def parse_axis(text: str) -> Axis:
     if len(set(values)) < len(values):
         raise _refused(text, "has the same value twice")
     return Axis(key, values, spacing)
+
+
+def _unit_of_last(values: Sequence[str]) -> str:
+    """Return the unit of the last value where it alone has one and numbers other than zero stand before it."""
+    from bem.scenes.units import _unit
+
+    found = [_NUMBER.fullmatch(value) for value in values]
+    if len(found) < 2 or None in found:
+        return ""
+    *before, last = (match.groups() for match in found if match is not None)
+    if not last[1] or any(unit for _, unit in before) or not any(float(number) for number, _ in before):
+        return ""
+    try:
+        _unit(last[1])
+    except LookupError:
+        return ""
+    return last[1]
 
 
 def _range(text: str, parts: Sequence[str], logarithmic: bool) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ from bem.campaigns.jobs import processes
 from bem.errors import InputError, ResultsError
 from bem.notes import OUTSIDE, Level
 from bem.notes.checks import ABOVE_HARDNESS
+from bem.notes.contact import CONTACT_UNRESOLVED
 from bem.notes.lubrication import FILM_MOLECULAR, FILM_SPIKE, FILM_THICK, SHEAR_LIMITED
 from bem.plots.draw import figure_kind
 from bem.results import RunDirectory, open_run
@@ -574,3 +575,22 @@ def test_a_scene_that_the_swept_key_completes_is_checked_with_its_values():
     assert [scene.contact.load for scene, _ in planned] == pytest.approx([1.0, 2.0], rel=1e-12, abs=0)
     with pytest.raises(InputError, match=r"grid\.shape"):
         _plan_points("hertz-sphere", over, ["contact.load=", "grid.shape=0"])
+
+
+@pytest.mark.internal
+def test_notes_of_one_code_with_other_headlines_stay_apart():
+    """A sweep said "spots are one or two cells wide" of points whose own notes said that edges are unresolved."""
+    notes = [
+        CONTACT_UNRESOLVED(times=1.3, of="", narrow=0.9, least=0.1, counted=0.13, reason="spots"),
+        CONTACT_UNRESOLVED(times=1.2, of="", narrow=0.2, least=0.1, counted=0.12, reason="edges"),
+        CONTACT_UNRESOLVED(times=1.1, of="", narrow=0.1, least=0.1, counted=0.11, reason="edges"),
+        CONTACT_UNRESOLVED(cells=1, reason="few-cells"),
+        CONTACT_UNRESOLVED(cells=4, reason="few-cells"),
+    ]
+    labels = [f"p = {n}" for n in range(5)]
+    _tell_notes([{"notes": [note.as_dict()]} for note in notes], labels, [Path(x) for x in labels], told := Telling())
+    assert len(told.notes) == 4
+    (edges,) = [text for text in told.notes if "do not resolve the edges" in text]
+    assert edges.startswith("caution, 2 of 5 points (p = 1, p = 2; figures of p = 1): The cells")
+    (spots,) = [text for text in told.notes if "one or two cells wide" in text]
+    assert spots.startswith("caution, 1 of 5 points (p = 0): Contact spots")

@@ -7,10 +7,13 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from bem.kinds.contact.figures import _scatter_of_places
+from bem.kinds.running_in.record import _STRIP
 from bem.notes.contact import LINE_APPROACH
 from bem.notes.lubrication import FILM_SPIKE
 from bem.plots import draw as drawing
 from bem.plots.cases import case_shown, case_words
+from bem.plots.compare import short_title
 from bem.plots.figures import all_figures
 from bem.plots.figures.keys import FIGURES as KEYS
 from bem.plots.labels import beyond_ends, colour_ends, in_celsius, key_words, uniform_value
@@ -464,3 +467,23 @@ def test_area_over_load_of_small_areas_has_no_empty_half():
     )
     highest = max(float(np.max(line.get_ydata())) for line in figure.axes[0].lines if len(line.get_ydata()))
     assert highest < figure.axes[0].get_ylim()[1] <= 2.1 * highest
+
+
+def test_the_scatter_of_places_is_seen_beside_the_marker():
+    """Its light bar hid behind the marker: the legend named what nobody saw."""
+    axes = Figure().add_subplot()
+    run = run_of("contact", "load", {"contact_spots": Variable(("load",), np.array([400.0]), "1", "spots")})
+    axes.errorbar([0.01], [0.02], fmt="o", markersize=4)
+    _scatter_of_places(run, axes, np.array([0.01]), np.array([0.02]), np.array([True]))
+    (bars,) = axes.collections
+    assert min(bars.get_linewidth()) > 4 + axes.lines[0].get_markeredgewidth()
+
+
+def test_a_long_title_of_a_comparison_is_whole():
+    """It ended in "in the contact region (Hertz' ..."."""
+    whole = f"Sq {_STRIP}, unworn"
+    assert short_title(whole) == "Sq of the wearing body, the lower one of two, in the contact region, unworn"
+    after = short_title(f"Sq {_STRIP}, after each cycle; after the last one it is Sq_final")
+    assert after == "Sq of the wearing body, the lower one of two, in the contact region, after each cycle"
+    assert short_title("friction (mean)") == "friction (mean)"
+    assert short_title("word " * 40).endswith(" ...")

@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -679,7 +680,10 @@ OUTCOMES = {
     ),
     "wear_outside_the_contact_region": (
         "running-in-stribeck",
-        (Outcome({"volume_outside_region": [0.05, 0.2]}, {}), "20 % of the worn volume lies outside it in 1 of 2 loops. The region is"),
+        (
+            Outcome({"volume_outside_region": [0.05, 0.2]}, {}),
+            "20 % of the worn volume lies outside it in 1 of 2 loops. The region is",
+        ),
         Outcome({"volume_outside_region": [0.05, 0.09]}, {}),
     ),
     "running_in_within_its_error": (
@@ -697,7 +701,10 @@ OUTCOMES = {
     ),
     "least_area_of_worn_surfaces": (
         "wear-steel-steel",
-        (least_area_outcome(0.25), "in the last cycle, which is 2.00 times larger"),
+        (
+            least_area_outcome(0.25),
+            "in the last cycle lies between 25 % of the grid (load over the hardness) and 50 %",
+        ),
         least_area_outcome(0.4),
     ),
     "long_steps_of_wear_by_pressure": (
@@ -1037,6 +1044,36 @@ def test_one_warning_is_said_once_and_a_check_that_fails_says_so(monkeypatch):
     assert note.values == {"task": "The check broken", "error": "ZeroDivisionError('nothing to divide by')"}
 
 
+@pytest.mark.internal
+@pytest.mark.parametrize(
+    ("pressure", "check"), [(98e9, "elastic_pressure_above_hardness"), (40e9, "pressure_beyond_linear_elasticity")]
+)
+def test_the_highest_pressure_of_a_note_is_that_of_the_table(pressure, check):
+    """Notes gave 15.5 GPa, on the cells, beside 16.39 GPa in the table, which is between cells."""
+    outcome = contact_outcome(spot(pressure), max_pressure_Pa=1.1 * pressure)
+    (note,) = OUTCOME_CHECKS[check](facts_of(BALL), outcome)
+    assert note.values["pressure"] == pytest.approx(1.1 * pressure)
+
+
+def test_shares_at_the_hardness_are_those_of_the_areas_of_the_table():
+    """The remark counted cells, 64 % with 79 % of the load; the table's areas are 85 %, with 92 % of it."""
+    facts = facts_of(with_(BALL, contact__behaviour="capped"))
+    cap, plane = facts.cases[0].cap, np.zeros((8, 8))
+    plane[:4, :4], plane[4, :4] = cap, 0.5 * cap
+    outcome = contact_outcome(plane)
+    area, load = 17 / 64, float(plane.mean()) / cap
+    figures = {"contact_area_fraction": area, "plastic_area_fraction": 0.9 * load}
+    (note,) = [
+        note
+        for note in outcome_warnings(facts, replace(outcome, summary={**outcome.summary, **figures}))
+        if note.code == "hardness-decides"
+    ]
+    assert note.values["area"] == pytest.approx(0.9 * load / area)
+    assert note.values["load"] == pytest.approx(0.9)
+    assert "95 % of the contact area, which carries 90 % of the load, is at the hardness" in note
+    assert "these are 80 % with 89 % of the load" in note
+
+
 def test_a_run_notes_what_was_warned_of_before_and_after(tmp_path):
     class Listener:
         def __init__(self):
@@ -1056,6 +1093,7 @@ def test_a_run_notes_what_was_warned_of_before_and_after(tmp_path):
     assert sorted(note["text"] for note in run.summary["notes"]) == sorted(others), "what was foreseen is confirmed"
     (note,) = [note for note in run.summary["notes"] if note["code"] == "contact-at-edge"]
     assert note["level"] == "outside_model"
+    assert note["text"].endswith("Set grid.lengths to 323 um or more."), "what was foreseen knows the length"
     assert run.summary["outside_model"]
     assert "contact reaches a free edge of the grid" in (tmp_path / "out" / "report.html").read_text()
 
@@ -1215,7 +1253,8 @@ def test_cells_and_load_at_the_hardness_are_of_the_same_cells():
     facts = facts_of(with_(BALL, contact__behaviour="capped", contact__hardness="7 GPa"))
     (told,) = OUTCOME_CHECKS["contact_at_the_cap"](facts, contact_outcome(pressure, **areas))
     assert told.values["cells"] == pytest.approx(capped / touching, rel=1e-12)
-    assert told.values["load"] == pytest.approx(2 * capped / (2 * capped + 1), rel=1e-12)
+    assert told.values["cells_load"] == pytest.approx(2 * capped / (2 * capped + 1), rel=1e-12)
+    assert told.values["area"] == pytest.approx(0.95, rel=1e-12)
     assert told.values["cells"] < told.values["load"], "cells touched in part carry less than their number"
 
 

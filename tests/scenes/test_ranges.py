@@ -108,3 +108,17 @@ def test_any_text_is_read_or_refused(key, body):
         return
     assert axis.values
     assert len(set(axis.values)) == len(axis.values)
+
+
+@pytest.mark.parametrize("before", ["5, 20", "0, 20"])
+def test_a_list_with_a_unit_at_its_last_value_alone_is_refused(before):
+    """ "5, 20, 80 MPa" was read as 5 Pa, 20 Pa and 80 MPa."""
+    with pytest.raises(InputError, match="only the last value has a unit") as caught:
+        parse_axis(f"contact.mean_pressure={before}, 80 MPa")
+    each = ", ".join(f"{value} MPa" for value in before.split(", "))
+    assert f'contact.mean_pressure="{each}, 80 MPa"' in str(caught.value)
+
+
+@pytest.mark.parametrize("text", ["5 MPa, 20 MPa", "0, 20 MPa", "5, 20", "5 MPa, 20", "a, b", "1, 2 parts"])
+def test_other_lists_are_read_as_they_are(text):
+    assert parse_axis(f"contact.mean_pressure={text}").values == tuple(text.split(", "))

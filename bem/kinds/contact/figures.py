@@ -200,7 +200,7 @@ def _scatter_of_places(run: Any, axes: Any, pressure: Any, area: Any, known: Any
         area[known],
         yerr=area[known] * np.array([scatter_of_places(count) for count in spots[known]]),
         fmt="none",
-        elinewidth=4.0,
+        elinewidth=9.0,  # wider than the marker, which would hide a short bar
         ecolor=BLUE,
         alpha=0.25,
         label="scatter from place to place, by contact spots",

@@ -15,13 +15,13 @@ from bem.kinds.contact.laws import solve_response
 from bem.kinds.contact.record import ContactRecord
 from bem.kinds.contact.scene import ContactScene
 from bem.materials import Body, softer_hardness
-from bem.notes import Level, Note, has_code
+from bem.notes import Note, has_code
 from bem.notes.contact import CONTACT_AT_EDGE, CONTACT_UNRESOLVED, LINE_APPROACH
 from bem.notes.note import without
 from bem.numerics.blocks import deviation
 from bem.scenes import build, wheel_rail
 from bem.scenes.context import Context, error_bars, release, set_aside, tell
-from bem.scenes.cut_off import is_cut_off
+from bem.scenes.cut_off import LARGER_GRID, edge_share, is_cut_off, larger_grid
 
 if TYPE_CHECKING:
     from bem.contact import ContactSolution
@@ -219,8 +219,10 @@ def _cut_off(scene: ContactScene, grid: Grid, solution: ContactSolution) -> tupl
     curved = [axis for axis in range(2) if not periodic[axis] and math.isfinite(scene.shape.radii[axis])]
     if not has_code(notes, CONTACT_AT_EDGE) or not is_cut_off(solution.pressure, curved):
         return notes
+    share, smooth = max(edge_share(solution.pressure, axis) for axis in curved), scene.smooth_contact(grid.lengths)
+    action = LARGER_GRID if smooth is None else larger_grid(scene, grid, smooth.semi_axes, curved)
     return tuple(
-        CONTACT_AT_EDGE(note.where, level=Level.OUTSIDE_MODEL, **note.values)
+        CONTACT_AT_EDGE(note.where, axes=note.values["axes"], share=share, action=action, reason="cut-off")
         if note.code == CONTACT_AT_EDGE.code
         else note
         for note in notes

@@ -36,7 +36,7 @@ class RunningInLifeRecord(GridRecord):
     Sq_initial: Annotated[float, Figure("nm", "second name of lower_Sq_initial")]
     Sq_final: Annotated[float, Figure("nm", "second name of lower_Sq_final")]
     worn_depth: Annotated[float, Figure("nm", "second name of lower_worn_depth")]
-    upper_Sq_initial: Annotated[float, Figure("nm", "Sq of the whole upper surface, unworn")]
+    upper_Sq_initial: Annotated[float, Figure("nm", "Sq of the whole upper surface, unworn", headline=True)]
     upper_Sq_final: Annotated[float, Figure("nm", "Sq of the whole upper surface at the end", headline=True)]
     upper_worn_depth: Annotated[float, Figure("nm", "mean depth worn of the whole upper surface")]
     lambda_ratio_initial: Annotated[float, Figure("", f"{LAMBDA_WHOLE}, unworn")]

@@ -20,6 +20,7 @@ from bem.scenes import build
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.hertz import LARGEST_SLOPE
 from bem.scenes.checks.registry import scene_check
+from bem.scenes.cut_off import WANTED, key_of_lengths
 
 _CAPPED_BY_ITS_FILM = "tribofilm"
 """The kind whose contact is capped by a hardness that its cases do not say, where that follows a law."""
@@ -110,7 +111,8 @@ def grid_smaller_than_hertz(facts: Facts) -> Iterator[Note]:
             length=case.grid.lengths[axis],
             axis="xy"[axis],
             size=size,
-            wanted=1.5 * size,
+            wanted=WANTED * size,
+            key=key_of_lengths(facts.scene),
             reason="grid",
         )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -36,7 +36,7 @@ from bem.scenes.checks.roughened import roughened
 from bem.scenes.checks.words import numbers, times
 from bem.scenes.common import MeasuredSurface
 from bem.scenes.context import Outcome
-from bem.scenes.cut_off import edge_share, is_cut_off
+from bem.scenes.cut_off import LARGER_GRID, edge_share, is_cut_off, larger_grid
 from bem.scenes.maps import map_on, map_size
 
 _AT_EDGE = 1e-4
@@ -89,9 +89,21 @@ def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[Note]:
             if touched:
                 beyond = is_cut_off(plane, [axis for axis in curved if axis in touched])
                 axes, share = joined(["xy"[axis] for axis in touched]), max(shares.values())
-                level = Level.OUTSIDE_MODEL if beyond else None
-                yield CONTACT_AT_EDGE(level=level, axes=axes, share=share, reason="share")
+                if beyond:
+                    yield CONTACT_AT_EDGE(axes=axes, share=share, action=_remedy(facts, touched), reason="cut-off")
+                else:
+                    yield CONTACT_AT_EDGE(axes=axes, share=share, reason="share")
                 return
+
+
+def _remedy(facts: Facts, axes: Sequence[int]) -> str:
+    """Return what to do about a contact that the edge cuts off along axes: of its largest case."""
+    found = [
+        larger_grid(facts.scene, case.grid, case.smooth.semi_axes, axes)
+        for case in sorted(facts.cases, key=lambda case: case.load or 0.0)
+        if case.grid is not None and case.smooth is not None
+    ]
+    return found[-1] if found else LARGER_GRID
 
 
 @outcome_check
@@ -206,6 +218,7 @@ def elastic_pressure_above_hardness(facts: Facts, outcome: Outcome) -> Iterator[
     if highest > hardness and (beyond or not list(hertz_pressure_above_hardness(facts))):
         level = Level.OUTSIDE_MODEL if beyond else None
         how = 'take behaviour = "capped"' if facts.of_kind("contact") else "take a smaller load"
+        highest = _highest_of_table(outcome, highest)
         yield ABOVE_HARDNESS(
             level=level, pressure=highest, ratio=highest / hardness, share=share, action=how, reason="solved"
         )
@@ -224,7 +237,14 @@ def pressure_beyond_linear_elasticity(facts: Facts, outcome: Outcome) -> Iterato
     highest, share = float(plane.max()), _share_above(plane, limit)
     if highest > limit and (share > _MOST or not (case.smooth is not None and case.smooth.ratio > 0.2)):
         level = Level.OUTSIDE_MODEL if share > _MOST else None
+        highest = _highest_of_table(outcome, highest)
         yield STRAIN_LARGE(level=level, pressure=highest, ratio=highest / modulus, share=share)
+
+
+def _highest_of_table(outcome: Outcome, on_cells: float) -> float:
+    """Return the highest pressure of a run [Pa] as its table gives it, between cells; without one that of the cells."""
+    found = numbers(outcome.summary.get("max_pressure_Pa"))
+    return max(found[0], on_cells) if len(found) == 1 else on_cells
 
 
 def _share_above(pressure: NDArray[np.float64], limit: float) -> float:
@@ -238,8 +258,29 @@ def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Note that the pressure is the cap, an input and not a result, on at least a tenth of the contact."""
     found = at_the_cap(facts, outcome)
     if found is not None and not roughened(facts, outcome).grown:  # which says it too
-        reason = "area-is-load" if found.load_share > _PLASTIC else "reached"
-        yield HARDNESS_DECIDES(cells=found.cell_share, load=found.load_share, cap=found.cap, reason=reason)
+        area = _area_at_the_cap(outcome, found)
+        load = found.load_share if area is None else area[1]
+        reason = "area-is-load" if load > _PLASTIC else "reached"
+        if area is None:
+            yield HARDNESS_DECIDES(cells=found.cell_share, load=load, cap=found.cap, reason=reason)
+        else:
+            yield HARDNESS_DECIDES(
+                area=area[0],
+                load=load,
+                cells=found.cell_share,
+                cells_load=found.load_share,
+                cap=found.cap,
+                reason=f"{reason}-of-area",
+            )
+
+
+def _area_at_the_cap(outcome: Outcome, found: CappedCells) -> tuple[float, float] | None:
+    """Return the shares of contact area and load at the hardness by the areas of the table, whose edges lie between
+    cells; None where the table has none."""
+    plastic, area = (numbers(outcome.summary.get(name)) for name in ("plastic_area_fraction", "contact_area_fraction"))
+    if not plastic or len(plastic) != len(area) or not area[-1] > 0 or not found.mean_pressure > 0:
+        return None
+    return min(plastic[-1] / area[-1], 1.0), min(plastic[-1] * found.cap / found.mean_pressure, 1.0)
 
 
 _PLASTIC = 0.8
@@ -255,11 +296,13 @@ class CappedCells:
     cell_share : their number over that of the cells in contact.
     load_share : share of the load that they carry.
     cap : the hardness [Pa].
+    mean_pressure : load over the area of the grid [Pa].
     """
 
     cell_share: float
     load_share: float
     cap: float
+    mean_pressure: float
 
 
 def at_the_cap(facts: Facts, outcome: Outcome) -> CappedCells | None:
@@ -276,7 +319,7 @@ def at_the_cap(facts: Facts, outcome: Outcome) -> CappedCells | None:
         touching, capped = np.count_nonzero(plane > 0), plane >= case.cap * (1 - 1e-9)
         if touching and np.count_nonzero(capped) > _AT_CAP * touching:
             share = np.count_nonzero(capped) / touching
-            return CappedCells(share, float(plane[capped].sum() / plane.sum()), case.cap)
+            return CappedCells(share, float(plane[capped].sum() / plane.sum()), case.cap, float(plane.mean()))
     return None
 
 

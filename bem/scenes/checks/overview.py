@@ -52,9 +52,7 @@ def bodies(facts: Facts) -> Rows:
         on_track = bool(first.wearing_bodies) and wears_on_a_track(facts.scene)
         if not on_track or (facts.of_kind("running-in") and first.shape == "ellipsoid"):  # others wear the whole grid
             region = "track, which is as wide as the contact" if on_track else "contact region"
-            rows.append(
-                ("", f"results give Sq of the {worn} body's {region}; it differs from Sq of the whole grid")
-            )
+            rows.append(("", f"results give Sq of the {worn} body's {region}; it differs from Sq of the whole grid"))
     rows.append(("upper shape", _shape(first)))
     return rows
 
