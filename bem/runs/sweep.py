@@ -208,7 +208,9 @@ def _tell_notes(
     for point, summary in enumerate(summaries):
         for note in of_summary(summary or {}):
             plain = note["code"] == PLAIN
-            said = (note["code"], note["text"]) if plain else (note["code"], note["where"], _wording(note["text"]))
+            said: tuple[str, ...] = (
+                (note["code"], note["text"]) if plain else (note["code"], note["where"], _wording(note["text"]))
+            )
             told.setdefault(said, {}).setdefault(note["text"], set()).add(point)
             levels.setdefault(said, {}).setdefault(Level(note["level"]), set()).add(point)
     order = list(Level)

@@ -40,6 +40,9 @@ _MOST_UNLIKE = 10.0
 """Ratio of the cells of two maps above which the finer map is mostly left out."""
 _LEAST_COMMON = 0.1
 """Common area over that of the larger map, below which the pair is remarked on."""
+_GAP = 3.0
+"""Gap of the smooth bodies over Sq up to which summits touch beside Hertz' contact: the highest of some thousand are
+three to four Sq high. At half of it summits touched at the ends of a grid whose Sq was three times Hertz' approach."""
 _MARGIN = 2.2
 """Length of the mesh over the half-width within which the surfaces touch."""
 _MOST_CELLS_ACROSS = 64
@@ -205,24 +208,25 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, 
     rms_height = math.hypot(*(one.rms_height for one in found.values()))
     data, length = _fitted(kind, data, spacing, smallest, rms_height)
     cells, cell = _mesh(length, spacing)
+    reasons = _why_larger_cells(kind, cells, cell, spacing)
     if kind == "wear":
         data["domain"] = {"cells": cells, "lengths": _length(cells * cell)}
     elif kind == "running-in-life":
         data["grid"] = {"shape": [cells, min(cells, _MOST_CELLS_ACROSS)], "spacing": _length(cell)}
         slid = data["speeds"]["slide_roll_ratio"] * cells * cell  # of a place while the patch passes
         data["wear"] = {"law": data["wear"]["law"] | {"distance": f"{1e6 * slid:.3g} um"}}
-        return _mirrored_where_bent(kind, data, found)
+        return _mirrored_where_bent(kind, data, found, reasons)
     else:
         data["grid"] = {"shape": cells, "spacing": _length(cell)}
     if kind == "friction":
-        return _mirrored_where_bent(kind, data, found)
+        return _mirrored_where_bent(kind, data, found, reasons)
     if kind == "running-in":
         data["speeds"] = {"values": [data["speeds"]["first"]]}
         # over a whole turn friction and particles do not hang on the place where the roughness of both bodies meets
         turn = round(cells / abs(WearScenePart().shift))
         data["cycles"] = {"count": _CYCLES, "averaged": turn, "settled": turn, "coarser_grid": True}
     data["depths"] = {"count": 64, "spacing": _length(cell / 2)}
-    return _mirrored_where_bent(kind, data | {"wear": _wear(kind, data, cell)}, found)
+    return _mirrored_where_bent(kind, data | {"wear": _wear(kind, data, cell)}, found, reasons)
 
 
 def _scale_of(body: str, path: str, scale: MapScale) -> MapScale | None:
@@ -369,15 +373,34 @@ def _why_mirrored(change: float) -> str:
     )
 
 
-def _mirrored_where_bent(kind: str, data: dict[str, Any], found: Mapping[str, MeasuredMap]) -> OwnStart:
-    """Return a first scene with those maps mirrored on its cells that closing the seams would alter."""
+def _why_larger_cells(kind: str, cells: int, cell: float, spacing: float) -> dict[tuple[str, ...], str]:
+    """Return the reason for cells [m] that are larger than those of the coarser map [m], by the key of their size."""
+    if cell < spacing * (1 + 1e-3):
+        return {}
+    all_cells = 2 * math.floor(cells * cell / spacing / 2 + 1e-9)
+    whole = f"domain.cells = {all_cells}" if kind == "wear" else f"grid.shape = {all_cells}"
+    whole += "" if kind == "wear" else f", grid.spacing = {_length(spacing)}"
+    why = (
+        f"Larger than the points of the maps, {_length(spacing)}, to keep the run short: roughness shorter than two "
+        f"cells is left out, slopes are smaller, and sizes of particles follow the cells. Cells of the maps: {whole}."
+    )
+    return {("domain", "cells") if kind == "wear" else ("grid", "spacing"): why}
+
+
+def _mirrored_where_bent(
+    kind: str, data: dict[str, Any], found: Mapping[str, MeasuredMap], why: Mapping[tuple[str, ...], str]
+) -> OwnStart:
+    """Return a first scene with those maps mirrored on its cells that closing the seams would alter.
+
+    why : reasons for its other values, by path of the key.
+    """
     from bem.scenes.checks import examine
 
     tables = {body: one.table | {"path": one.source.path} for body, one in found.items() if one.source is not None}
     known = {body: {**data[body], "surface": table} for body, table in tables.items()}
     one_kind = get_kind(kind)
     facts = examine(one_kind.resolved(one_kind.model.model_validate({**data, **known})))
-    reasons: dict[tuple[str, ...], str] = {}
+    reasons = dict(why)
     for change, _, surface in facts.worst_surfaces(lambda surface: surface.seams / surface.rms_height):
         table = surface.table
         if change > MOST_SEAM_CHANGE and isinstance(table, MeasuredSurface) and table.mirror == "none":
@@ -446,8 +469,8 @@ def _fitted(
 ) -> tuple[dict[str, Any], float]:
     """Return the values with a contact that fits the maps, and the length of the mesh [m].
 
-    Rough surfaces touch where the gap of the smooth bodies, x^2 / 2R, is within about 1.5 Sq beside the Hertz contact.
-    Where that is too large for the maps or too small for their cells, radius and load change at the same Hertz
+    Rough surfaces touch where the gap of the smooth bodies, x^2 / 2R, is within `_GAP` times Sq beside the Hertz
+    contact. Where that is too large for the maps or too small for their cells, radius and load change at the same Hertz
     pressure: half-width in proportion to the radius, load to its square, of a cylinder of the same width to the radius.
     rms_height : Sq of both surfaces together [m].
     """
@@ -456,13 +479,13 @@ def _fitted(
     radius = body.radius if line else body.ball
 
     def length(scale: float) -> float:
-        return _MARGIN * math.hypot(scale * half_width, math.sqrt(3 * scale * radius * rms_height))
+        return _MARGIN * math.hypot(scale * half_width, math.sqrt(2 * _GAP * scale * radius * rms_height))
 
     wanted = min(max(length(1.0), 1.1 * _FEWEST_CELLS * spacing), 0.98 * smallest)
     if wanted == length(1.0):
         return data, wanted
-    # of (scale a)^2 + 3 scale R Sq = (wanted / margin)^2 the positive root
-    linear, square = 3 * radius * rms_height, half_width**2
+    # of (scale a)^2 + 2 gap scale R Sq = (wanted / margin)^2 the positive root
+    linear, square = 2 * _GAP * radius * rms_height, half_width**2
     scale = (math.sqrt(linear**2 + 4 * square * (wanted / _MARGIN) ** 2) - linear) / (2 * square)
     smaller = {
         "radius" if line else "ball": f"{_digits(1e3 * scale * radius)} mm",

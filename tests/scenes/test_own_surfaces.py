@@ -1,5 +1,6 @@
 """First scenes on measured surfaces: they plan without a caution and run to an end inside the model."""
 
+import math
 import shutil
 from pathlib import Path
 
@@ -43,6 +44,27 @@ def test_the_mesh_has_the_cells_of_the_coarser_map_and_holds_the_contact(tmp_pat
     assert 102.4e-6 > grid.lengths[0] > 4 * 13.8e-6  # Hertz radius of the first scene
 
 
+@pytest.mark.parametrize("kind", ["running-in", "running-in-life", "wear"])
+def test_cells_larger_than_the_points_of_the_maps_have_a_comment(kind, tmp_path, monkeypatch):
+    """The guide said that the first scene has the cells of the coarser map: 0.4 um maps had cells of 0.5 um."""
+    monkeypatch.setattr("bem.scenes.own_surfaces._MOST_CELLS", 64)
+    text = " ".join(scene_template(kind, surfaces=FILES, folder=tmp_path).replace("#", " ").split())
+    assert "Larger than the points of the maps, 0.8 um, to keep the run short" in text
+    assert ("domain.cells = 124" if kind == "wear" else "grid.shape = 124, grid.spacing = 0.8 um") in text
+
+
+@pytest.mark.parametrize("kind", ["running-in", "friction"])
+def test_summits_within_three_rms_heights_lie_on_the_grid(kind, tmp_path):
+    """With an Sq of three Hertz approaches summits touched at the ends of a grid of 3.4 lengths of Hertz' contact."""
+    path = tmp_path / "mine.toml"
+    path.write_text(scene_template(kind, surfaces=FILES, folder=tmp_path))
+    scene, _ = plan_scene(path)
+    facts = examine(scene)
+    end, radius = 0.5 * build.grid_of(scene.grid).lengths[0], scene.contact.ball
+    both = math.hypot(*(surface.rms_height for _, surface in facts.surfaces[:2]))
+    assert end**2 / (2 * radius) - facts.cases[0].smooth.semi_axes[0] ** 2 / (2 * radius) > 3.0 * both
+
+
 def test_a_contact_larger_than_the_maps_shrinks_at_the_same_pressure(tmp_path):
     """The first friction scene has a contact of 139 um, larger than the maps of 102 um."""
     path = tmp_path / "mine.toml"
@@ -72,7 +94,7 @@ def test_own_surfaces_run_in_inside_the_model_with_particles(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(scene_template("running-in", surfaces=FILES, folder=tmp_path))
     cycles = plan_scene(path)[0].cycles
-    assert (cycles.averaged, cycles.settled) == (37, 37)  # 112 cells at 3 a cycle: a whole turn of the roughness
+    assert (cycles.averaged, cycles.settled) == (41, 41)  # 124 cells at 3 a cycle: a whole turn of the roughness
     few = ["cycles.count=12", "cycles.settled=4", "cycles.averaged=10", "cycles.coarser_grid=false"]
     campaign = campaign_of(plan_scene(path, few)[0])
     outcome = compute(campaign).outcome
