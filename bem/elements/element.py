@@ -23,6 +23,7 @@ from bem.elements.cam_follower import CamModel
 from bem.elements.contact import WIDE, ElementContact
 from bem.elements.gear_pair import GearModel
 from bem.elements.model import Contacts, ElementModel, HeatBalanceScene
+from bem.elements.passes import time_words
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.plain_bush import (
     HOUSING,
@@ -39,6 +40,7 @@ from bem.elements.rough_scenes import (
     finish_words,
     life_scene,
     mixed_scene,
+    passes_in,
     rubbing_scene,
 )
 from bem.errors import InputError
@@ -455,9 +457,8 @@ class Element:
                 return base | self._rubbing_bush(self.model, contact, bodies)
             return base | rubbing_scene(self.model, contact, bodies, self._patch_modulus)
         film, more = self._film_scene(contact, bodies, kind)
-        if kind == LIFE and self.found.passes[0]:
-            count = film["life"]["count"]
-            more.append(f"{count} cycles, passes of body 1, take {count / self.found.passes[0] / 3600:.2g} h")
+        if kind == LIFE:
+            more.append(self._cycle_words(film))
         if isinstance(self.model, PlainBushModel) and kind in ("traction", *MIXED, LIFE):
             more = [*more, *self._film_bounds(self.model, contact)]
         if isinstance(self.model, PlainBushModel) and kind in ("traction", "friction"):
@@ -465,6 +466,13 @@ class Element:
             film = {**film, "bush": {"bore": bore, "clearance": self.model.clearance}}
         base["description"] = "; ".join([base["description"], *more])
         return base | film
+
+    def _cycle_words(self, film: Mapping[str, Any]) -> str:
+        """Return the number of cycles of a life, what a cycle is and how long they take, in words."""
+        passes, count = passes_in(film, self.model, self.found.passes), film["life"]["count"]
+        lasting = "" if passes.rate is None else f", take {time_words(count / passes.rate)}"
+        remark = f"; {passes.remark}" if passes.remark else ""
+        return f"{count} cycles, {passes.unit}{lasting}{remark}"
 
     def _film_bounds(self, bush: PlainBushModel, contact: ElementContact) -> list[str]:
         """Return the lower bound of a film in words where, by the film formula, a bush's scene takes it too thick."""
@@ -558,7 +566,9 @@ class Element:
             return bush_scene(self.model, contact, self._oil_table(), self.table["first"], self.table["second"]), []
         if kind in (*MIXED, LIFE):
             if kind == LIFE:
-                made, more = life_scene(self.model, contact, bodies, self._oil_table(), self._patch_modulus)
+                made, more = life_scene(
+                    self.model, contact, bodies, self._oil_table(), self._patch_modulus, self.found.passes
+                )
             else:
                 made, more = mixed_scene(self.model, contact, bodies, self._oil_table(), kind, self._patch_modulus)
             return made | ({"thermal": "off"} if self._layered else {}), more

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from bem.elements.element import Element
+from bem.elements.passes import NAMES
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.plain_bush import PlainBushModel
 from bem.elements.running import wear_per_pass
@@ -13,8 +14,6 @@ from bem.particles import particle_number
 CITES = ("archard1953",)
 """Source of the wear law, a key of `bem/references.bib`."""
 _LAW = "; Archard's law with the whole load and the given wear rate"
-_NAMES = {"gear-pair": ("pinion", "wheel"), "cam-follower": ("cam", "follower")}
-"""Names of body 1 and body 2."""
 _ROLLS = "none: both surfaces roll at one speed without sliding"
 
 
@@ -28,7 +27,7 @@ def wear_per_hour(element: Element) -> str:
     if isinstance(element.model, PistonRingModel):
         return _ring_wear(element, element.model) + _LAW
     said = []
-    names = _NAMES.get(element.model.element, ("body 1", "body 2"))
+    names = NAMES.get(element.model.element, ("body 1", "body 2"))
     for body, (name, rate) in enumerate(zip(names, rates, strict=True)):
         if rate is None:
             said.append(f"{name} not known: its places are not passed equally often")

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from bem.elements.contact import ElementContact
+from bem.elements.passes import NAMES, Passes, passes_of
 from bem.elements.plain_bush import PlainBushModel
 from bem.errors import InputError
 from bem.grid import Grid
@@ -23,6 +24,7 @@ from bem.quantities import si
 from bem.scenes.wearing import cycles_of_a_turn
 from bem.surfaces.processes import PROCESSES, ProcessName
 from bem.wear.criterion.local import cell_to_cell_compliance
+from bem.wear.setup import UPPER, wearing_bodies
 
 if TYPE_CHECKING:
     from bem.elements.model import ElementModel
@@ -67,9 +69,12 @@ ASSUMED_SLIDING, ASSUMED_WEAR_RATE, ASSUMED_CYCLES = 0.02, 2e-17, 1_000_000
 """Slide-to-roll ratio of running-in and lives in place of pure rolling (rolling bearings slip by 1 to 3 %). Wear rate
 of lives without one of the element [m^2/N], as in the template of running-in-life, and their cycles."""
 _LEAST_SLIDING = 1e-4
-_DEPTHS = 50
-_CELLS_PER_DEPTH = 5.0
-"""Steps between depths are so many times shorter than the cells, as in the built-in scenes of running-in."""
+_SCAR = 0.5
+"""Width of the scar on a body that does not pass over that of the patch, at the end of a life under the whole load: a
+flat of width w on a cylinder of radius R takes off w^3 / 12 R by length."""
+_DEPTHS, _DEPTHS_PER_AVERAGE = 64, 6.0
+"""Number of depths, and depths in an averaging length: half a cell where that is three, as in scenes of own surfaces.
+The deepest lies below the largest particles: 3.3 averaging lengths cut 16 % of those of a ground flank, ten none."""
 
 
 @dataclass(frozen=True)
@@ -248,12 +253,14 @@ def mixed_scene(
     if kind == "running-in":
         if not model.specific_wear_rate:
             assumed.append("the wear rate is assumed")
-        return made | _running_in(model, patch), assumed
+        return made | _running_in(model, patch, rolls=contact.speeds[1] != 0), assumed
     return made, assumed
 
 
-def _running_in(model: ElementModel, patch: Patch) -> dict[str, Any]:
+def _running_in(model: ElementModel, patch: Patch, *, rolls: bool) -> dict[str, Any]:
     """Return the keys of running-in: Archard's wear, which smooths summits, with the particles of a criterion.
+
+    The body that wears moves through the contact, so that its whole track wears, where both bodies do (`rolls`).
 
     Along grooves, where the cells are much longer than across them, no criterion could tell particles from cells.
 
@@ -267,13 +274,15 @@ def _running_in(model: ElementModel, patch: Patch) -> dict[str, Any]:
     shift = max(_SHIFT, round(patch.shape[0] / _TURN))
     turn = cycles_of_a_turn(patch.shape, shift)
     particles: dict[str, Any] = {}
-    if max(cell) <= _MOST_UNLIKE_CELLS * min(cell):
-        averaged = max(_SHORTEST_AVERAGE, _CELLS_PER_AVERAGE * max(cell))
+    alike_cells = max(cell) <= _MOST_UNLIKE_CELLS * min(cell)
+    averaged = averaging_length(max(cell) if alike_cells else min(cell))
+    if alike_cells:
         particles["particle_criterion"] = {"kind": "averaged_von_mises", "averaging_length": averaged}
     alike = bodies[0].surface_material.yield_stress == bodies[1].surface_material.yield_stress
     return {
         "wear": {
             **({"wears": "lower"} if alike else {}),
+            **({"frame": "disk"} if rolls and wearing_bodies(bodies, "softer") == (UPPER,) else {}),
             "criterion": {
                 "kind": "archard",
                 "specific_wear_rate": f"{1e9 * rate:.6g} mm^3/(N*m)",
@@ -282,9 +291,14 @@ def _running_in(model: ElementModel, patch: Patch) -> dict[str, Any]:
             **particles,
             **({} if shift == _SHIFT else {"shift": shift}),
         },
-        "depths": {"count": _DEPTHS, "spacing": min(cell) / _CELLS_PER_DEPTH},
+        "depths": {"count": _DEPTHS, "spacing": averaged / _DEPTHS_PER_AVERAGE},
         "cycles": {"count": 2 * turn, "averaged": turn, "settled": turn},
     }
+
+
+def averaging_length(cell: float) -> float:
+    """Return the averaging length of the particle criterion on cells of a side [m]."""
+    return max(_SHORTEST_AVERAGE, _CELLS_PER_AVERAGE * cell)
 
 
 def life_scene(
@@ -293,10 +307,12 @@ def life_scene(
     bodies: Mapping[str, Mapping[str, Any]],
     oil: Mapping[str, Any],
     modulus: float,
+    rates: tuple[float | None, float | None],
 ) -> tuple[dict[str, Any], list[str]]:
     """Return the keys of a scene of kind running-in-life, see `mixed_scene`, and what is assumed in it, in words.
 
-    Wear is Archard's with the element's rate; a place slides by slide-to-roll ratio times patch in a pass.
+    Wear is Archard's with the element's rate. A cycle is a pass of body 1; each body slides in it by its own speed and
+    passes (`passes_of`). rates : passes of a place of either body per time [1/s]; None if not known.
 
     Raises
     ------
@@ -307,14 +323,43 @@ def life_scene(
             f"{contact.name}: kind running-in-life has line contacts alone; allowed: kind running-in under a ball"
         )
     made, assumed = mixed_scene(model, contact, bodies, oil, "running-in-life", modulus)
-    ratio, rate = made["speeds"]["slide_roll_ratio"], model.specific_wear_rate
+    rate = model.specific_wear_rate
     if not rate:
         rate = ASSUMED_WEAR_RATE
         assumed.append("the wear rate is assumed")
-    distance = abs(ratio) * made["grid"]["lengths"][0]
-    law = {"kind": "archard", "specific_wear_rate": f"{1e9 * rate:.6g} mm^3/(N*m)", "distance": distance}
+    passes = passes_in(made, model, rates)
+    lower, upper = passes.slid
+    law: dict[str, Any] = {"kind": "archard", "specific_wear_rate": f"{1e9 * rate:.6g} mm^3/(N*m)"}
+    wear: dict[str, Any] = {"law": law | {"distance": lower}}
+    if upper:
+        wear["law"]["upper_over_lower"] = upper / lower
+    else:
+        wear["wears"] = "lower"
+    count = ASSUMED_CYCLES
+    if passes.moves != "both":
+        wear["passes"] = passes.moves
+        if upper:
+            worn = rate * contact.load / contact.length * upper  # area of the scar's section in a cycle [m^2]
+            most = (_SCAR * made["grid"]["lengths"][0]) ** 3 / (12 * contact.radius * worn)
+            count = int(min(float(f"{most:.1g}"), count)) or 1
+            if count < ASSUMED_CYCLES:
+                body = NAMES[model.element][1]
+                assumed.append(f"the cycles keep the scar of the {body} within half the patch")
     keys = {name: value for name, value in made.items() if name != "sharing"}
-    return keys | {"wear": {"law": law}, "life": {"count": ASSUMED_CYCLES}}, assumed
+    return keys | {"wear": wear, "life": {"count": count}}, assumed
+
+
+def passes_in(made: Mapping[str, Any], model: ElementModel, rates: tuple[float | None, float | None]) -> Passes:
+    """Return the sliding and passes of both bodies over the patch of a scene of `mixed_scene`.
+
+    Parameters
+    ----------
+    made : keys of the scene.
+    model : the element.
+    rates : passes of a place of either body per time [1/s]; None if not known.
+    """
+    (lower,), half = made["speeds"]["values"], 0.5 * made["speeds"]["slide_roll_ratio"]
+    return passes_of(model, rates, (lower, lower * (1 - half) / (1 + half)), made["grid"]["lengths"][0])
 
 
 def bush_scene(

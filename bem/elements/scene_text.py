@@ -7,11 +7,14 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from bem.elements.passes import NAMES, time_words
 from bem.elements.plain_bush import PlainBushModel
-from bem.elements.rough_scenes import finish_lengths
+from bem.elements.rough_scenes import averaging_length, finish_lengths, passes_in
+from bem.materials import Body
 from bem.physical_constants import ZERO_CELSIUS
 from bem.quantities import si
 from bem.scenes.load import dumped
+from bem.wear.setup import wearing_bodies
 
 if TYPE_CHECKING:
     from bem.elements.element import Element
@@ -88,6 +91,13 @@ _WORN = '    # of equal materials the body whose whole track wears evenly; "both
 """Comment on the body that wears in running-in between equal materials."""
 
 
+_SLID = (
+    "    # distance: slid by a place of the {first} in a cycle; upper_over_lower: slid by a place of the {second} in a "
+    "cycle, over that"
+)
+"""Comment on the wear law of a life in which both bodies wear."""
+
+
 _NO_PARTICLES = (
     "    # particles need cells as short along y as along x (a longer run): grid.shape = {shape} and "
     'particle_criterion = {{ kind = "averaged_von_mises", averaging_length = "{length}" }}'
@@ -107,7 +117,10 @@ def element_scene_text(element: Element, table: Mapping[str, Any]) -> str:
         words = _OWN_LENGTH if shorter == longer else _GROOVES.format(across=shorter, along=longer)
         comments |= dict.fromkeys(("lower.surface", "upper.surface"), words)
     if table["kind"] == "running-in":
-        comments |= _wear_comments(table)
+        comments |= _wear_comments(table) | _cycle_comments(element, table)
+    if table["kind"] == "running-in-life" and "upper_over_lower" in table["wear"]["law"]:
+        first, second = NAMES.get(element.model.element, ("body 1", "body 2"))
+        comments["wear.law"] = _SLID.format(first=first, second=second)
     return scene_text(table, bulk_estimated=element.bulk_estimated, comments=comments)
 
 
@@ -118,8 +131,21 @@ def _wear_comments(table: Mapping[str, Any]) -> dict[str, str]:
         shape, lengths = table["grid"]["shape"], table["grid"]["lengths"]
         cell = min(length / cells for length, cells in zip(lengths, shape, strict=True))
         fine = [16 * math.ceil(length / cell / 16 * (1 - 1e-9)) for length in lengths]
-        found["wear.criterion"] = _NO_PARTICLES.format(shape=fine, length=si(3 * cell, "m", 4))
+        found["wear.criterion"] = _NO_PARTICLES.format(shape=fine, length=si(averaging_length(cell), "m", 4))
     return found
+
+
+def _cycle_comments(element: Element, table: Mapping[str, Any]) -> dict[str, str]:
+    """Return a comment on the number of cycles of running-in: how many passes a cycle stands for."""
+    criterion, passes = table["wear"]["criterion"], passes_in(table, element.model, element.found.passes)
+    bodies = Body(element.bodies[0]), Body(element.bodies[1])
+    (worn,) = wearing_bodies(bodies, table["wear"].get("wears", "softer"))
+    slid = passes.slid[worn]
+    if not slid:
+        return {}
+    number = criterion["distance"] / slid
+    lasting = "" if passes.rate is None else f", {time_words(number / passes.rate)}"
+    return {"cycles.count": f"    # each stands for {float(f'{number:.3g}'):g} {passes.unit}{lasting}"}
 
 
 def scene_text(

@@ -66,8 +66,10 @@ LIFE_DISTANCE_DIFFERS = define(
     "life-distance-differs",
     CAUTION,
     "wear.law.distance does not fit the speeds.",
-    "It is {given:si m}; at these speeds a place slides {slid:si m} while the {length:si m} of the patch pass.",
-    "Set wear.law.distance to {slid:si m}.",
+    "It is {given:si m}; at these speeds a place of the lower surface slides {slid:si m} while it passes the "
+    "{length:si m} of the patch, one of the upper surface {ratio:.3g} times as far.",
+    "Set wear.law.distance to {slid:si m} and wear.law.upper_over_lower to {ratio:.3g} (times the passes of an upper "
+    "place in a pass of a lower one).",
 )
 LIFE_BARS_WIDE = define(
     "life-bars-wide",

@@ -63,11 +63,16 @@ def window_of(name: str, summary: Mapping[str, Any]) -> str:
         words = region_words(summary.get("contact_region"), summary.get("contact_region_width_um"))
         return f" ({words.replace(' um', ' µm')})" if words else ""
     window = summary.get(f"{_WINDOWS.get(name, '')}_cycles")
-    return f" (last {window} cycles)" if isinstance(window, int) else ""
+    if not isinstance(window, int):
+        return ""
+    return f" (mean of the last {window} cycles)" if name in _HIGHEST else f" (last {window} cycles)"
 
 
 _OF_REGION = ("Sq_initial_nm", "Sq_final_nm", "worn_depth_nm")
+_HIGHEST = ("contact_temperature_C", "flash_temperature_C")
+"""Figures whose labels would be read as the highest or the mean of one cycle."""
 _WINDOWS = {
+    **dict.fromkeys(_HIGHEST, "averaged"),
     **dict.fromkeys(("friction_run_in", "contact_load_N", "film_load_N", "particles_last_cycles"), "averaged"),
     "particles_per_cycle": "settled",
     "particles_per_distance_per_m": "settled",

@@ -340,6 +340,10 @@ def test_running_in_draws_what_wears_with_a_margin_above_nearly_flat_curves():
     (line,) = drawn(kinds["wear-over-cycles"].draw, run).axes[0].lines
     assert line.get_xdata() == pytest.approx([0, 1, 2, 3])
     assert line.get_ydata() == pytest.approx([210, 208, 205, 200])  # from Sq_initial to Sq_final
+    run.dataset["particles_over_cycles"][:] = 0.0  # not sought: an empty panel stood below the others
+    rows = drawn(kinds["wear-over-cycles"].draw, run).axes
+    assert len(rows) == 2
+    assert rows[-1].get_xlabel() == "cycle"
     run.dataset["volume_over_cycles"][:] = 0.0
     assert not kinds["wear-over-cycles"].fits(run)
 

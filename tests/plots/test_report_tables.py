@@ -387,6 +387,17 @@ def test_an_area_is_shown_once_and_roughness_before_and_after_in_one_row(tmp_pat
     ]
 
 
+def test_temperatures_of_running_in_are_means_over_cycles():
+    """The highest one, a mean, was below that of the last cycle in a caution."""
+    summary = {"averaged_cycles": 64, "flash_temperature_C": [288.9], "contact_temperature_C": [200.4]}
+    rows = dict(summary_rows(summary, ["flash_temperature_C", "contact_temperature_C"]))
+    assert list(rows) == [
+        f"surfaces in contact, {which} temperature (mean of the last 64 cycles)" for which in ("highest", "mean")
+    ]
+    life = dict(summary_rows({"flash_temperature_C": 313.3}, ["flash_temperature_C"]))
+    assert list(life) == ["surfaces in contact, highest temperature"]
+
+
 def test_the_table_of_the_load_share_says_its_formula():
     """The heads b and c are constants of exp(-b lambda^c)."""
     share = {"model": "elastic", "b": 0.6, "c": 0.7, "b_error": 0.01, "c_error": 0.02, "rms": 0.01, "largest": 0.02}

@@ -202,11 +202,29 @@ def test_bars_as_large_as_their_figures_are_a_caution(monkeypatch, share, said):
     assert [note.values["share"] for note in notes] == ([pytest.approx(share)] if said else [])
 
 
+def test_the_caution_on_heat_has_the_highest_temperature_of_the_table():
+    """It was that of the last position: 279 °C beside 313 °C in the table."""
+    changes = {
+        "thermal": "lumped",
+        "oil": {"grade": "ISO VG 32", "temperature": "148 degC"},
+        "speeds": {"values": ["2 m/s"], "cylinder": 0.1},
+        "life": SHORT | {"count": 10, "first_step": 10.0},
+    }
+    record, context = run(LIFE | changes, PlainContext(5))  # the first of two positions is the hotter one
+    (note,) = (note for note in context.notes if note.code == "surface-hot")
+    assert note.values["temperature"] == pytest.approx(record.flash_temperature - 273.15, rel=1e-9)
+
+
 def test_a_distance_that_the_speeds_do_not_make_is_said():
     law = LIFE["wear"]["law"] | {"distance": "54 um"}
     scene = LIFE | {"wear": LIFE["wear"] | {"law": law}, "life": SHORT | {"count": 10, "first_step": 10.0}}
-    assert any(note.code == "life-distance-differs" for note in run(scene)[1].notes)
-    assert not any(note.code == "life-distance-differs" for note in run(LIFE | {"life": scene["life"]})[1].notes)
+    (note,) = (note for note in run(scene)[1].notes if note.code == "life-distance-differs")
+    assert note.values["ratio"] == pytest.approx(1 / 0.9)  # of the slower upper surface
+    slid = 51.2e-6 * 0.1  # of the lower surface: length x sliding speed over its own speed, not over their mean
+    assert note.values["slid"] == pytest.approx(slid, rel=1e-9, abs=0)
+    law = law | {"distance": slid}
+    fits = LIFE | {"wear": LIFE["wear"] | {"law": law}, "life": scene["life"]}
+    assert not any(note.code == "life-distance-differs" for note in run(fits)[1].notes)
 
 
 @pytest.mark.parametrize(

@@ -95,19 +95,22 @@ def _show_range(axes: Axes) -> None:
 
 
 def _wear_over_cycles(run: Any, figure: Figure) -> None:
-    """Roughness, volume worn up to each cycle and particles of each cycle, one above the other."""
-    cycle, rows = run.dataset["cycle"].values, figure.subplots(3, 1, sharex=True)
+    """Roughness, volume worn up to each cycle and particles of each cycle if there are any, one above the other."""
+    cycle, particles = run.dataset["cycle"].values, grouped(run, "particles_over_cycles")
+    found = any(values.any() for _, values in particles)
+    rows = figure.subplots(3 if found else 2, 1, sharex=True)
     sums = [
         (group, np.insert(np.cumsum(values, axis=-1) * 1e18, 0, 0.0, axis=-1))
         for group, values in grouped(run, "volume_over_cycles")
     ]
     heights, words = _roughness(run)
     factor, unit = prefix(np.concatenate([values.ravel() for _, values in heights]), "m")
-    for axes, groups, text in (
-        (rows[0], [(group, factor * values) for group, values in heights], label(words, unit)),
-        (rows[1], sums, "worn volume,\nall bodies (µm³)"),
-        (rows[2], grouped(run, "particles_over_cycles"), "particles per cycle\nof one body"),
-    ):
+    panels = [
+        ([(group, factor * values) for group, values in heights], label(words, unit)),
+        (sums, "worn volume,\nall bodies (µm³)"),
+        *([(particles, "particles per cycle\nof one body")] if found else []),
+    ]
+    for axes, (groups, text) in zip(rows, panels, strict=True):
         for number, (group, values) in enumerate(groups):
             colour = matplotlib.colormaps["viridis"](0.85 * number / max(1, len(groups) - 1))
             shown, places = values.mean(axis=0), cycle
@@ -116,9 +119,9 @@ def _wear_over_cycles(run: Any, figure: Figure) -> None:
             axes.plot(places, shown, color=colour, linewidth=1.1, label=group)
         axes.set_ylabel(text)
         start_at_zero(axes)
-    rows[2].set_xlabel("cycle")
-    rows[2].set_xlim(0, max(2, cycle[-1]))
-    rows[2].xaxis.set_major_locator(MaxNLocator(integer=True))
+    rows[-1].set_xlabel("cycle")
+    rows[-1].set_xlim(0, max(2, cycle[-1]))
+    rows[-1].xaxis.set_major_locator(MaxNLocator(integer=True))
     if len(sums) > 1:
         rows[0].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
@@ -274,8 +277,8 @@ FIGURES = (
     FigureKind(
         "wear-over-cycles",
         "Sq of Hertz' contact (on a body that moves through it of the track, a strip as wide over the whole grid) from "
-        "before the first cycle to after the last (`Sq_initial` to `Sq_final`), volume worn up to each cycle and "
-        "particles of each cycle.",
+        "before the first cycle to after the last (`Sq_initial` to `Sq_final`), volume worn up to each cycle and, "
+        "where there are any, particles of each cycle.",
         (
             *("cycle", "rms_height_over_cycles", "volume_over_cycles", "particles_over_cycles"),
             *("speed", "hardness"),

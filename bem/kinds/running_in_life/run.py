@@ -52,7 +52,7 @@ def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
 
     with context.timer("cycles"):
         end = run_life(case, *initial, state=state, callback=after)
-    _tell(scene, context, setup, end.contacts[-1])
+    _tell(scene, context, setup, max(end.contacts, key=lambda one: one.flash_temperature))
     for note in monitors.notes():
         context.note(note)
     wanted = scene.life.coarser_lives
@@ -100,16 +100,17 @@ def _with_body(figures: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, last: PositionContact) -> None:
-    """Note partial error bars, a distance that differs from the slid one, and the notes of the last pass."""
+    """Note partial error bars, a distance that differs from the slid one, and the notes of a pass of the last round."""
     wear, (speeds,) = scene.wear, scene.speeds.build()
     hold = "cycle jumps, positions, cells and points of the films" if scene.life.coarser_lives else JUMPS_ALONE
     context.note(BARS_PARTIAL(positions=wear.positions, hold=hold, reason="life"))
-    mean, slide = 0.5 * abs(sum(speeds)), abs(speeds[0] - speeds[1])
-    passing = wear.passes == "both" and mean > 0
-    length = setup.grid.lengths[0]
-    slid = length * slide / mean if passing else wear.distance
-    if passing and slid > 0 and abs(wear.distance / slid - 1) > 0.05:
-        context.note(LIFE_DISTANCE_DIFFERS(given=wear.distance, slid=slid, length=length))
+    lower, upper = (abs(speed) for speed in speeds)
+    slide, length = abs(speeds[0] - speeds[1]), setup.grid.lengths[0]
+    passing = wear.passes == "both" and lower > 0 and upper > 0
+    slid = length * slide / lower if passing else wear.distance
+    if slid > 0 and abs(wear.distance / slid - 1) > 0.05:
+        ratio = lower / upper if passing else 1.0
+        context.note(LIFE_DISTANCE_DIFFERS(given=wear.distance, slid=slid, length=length, ratio=ratio))
     tell(context, last.oil_notes, "film")
     tell(context, last.contact_notes)
 

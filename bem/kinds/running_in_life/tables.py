@@ -74,8 +74,10 @@ class LifeWear(Table):
 
     law: Annotated[Criterion, LawKey("criterion", takes=_by_pressure)] = key(
         "Wear law, with its parameters: archard, archard_over_hardness or energy; specific_wear_rate is the worn "
-        "volume of each body that wears per load and sliding distance (both together lose twice as much; "
-        "upper_over_lower changes it), distance the sliding of one cycle.",
+        "volume of each body that wears per load and sliding distance, distance the sliding of a place of the lower "
+        "body in a cycle (a pass: length of the patch times sliding speed over its own speed), upper_over_lower wear "
+        "rate times that distance of the upper body over those of the lower one (1: both together lose twice as "
+        "much).",
         "basic",
         example="archard",
     )
