@@ -82,7 +82,7 @@ def test_a_note_on_films_of_several_cases_is_one_line():
     assert one.values["loading"] == (0.2, 2.0)
     (one,) = notes_of_cases([notes[:1], [whole]])
     assert one.where == ""
-    slides = LUMPED_HEAT_LIMIT("at 1 of 12 positions", reason="slides", remedy="")
+    slides = LUMPED_HEAT_LIMIT("at 1 of 12 positions", reason="slides", slide=0.5, remedy="")
     found = [note.where for note in notes_of_cases([notes[:1], [slides]])]
     assert found == ["row 1, at 2 of 12 positions", "row 2, at 1 of 12 positions"]
 

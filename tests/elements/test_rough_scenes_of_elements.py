@@ -286,7 +286,8 @@ def test_named_places_of_a_cam_without_a_steady_film_give_way_to_the_thinnest_on
     command = ["element", str(file), "--scene", str(scene), "--kind", "friction", *(["--at", place] if place else [])]
     done = CliRunner().invoke(build(), command)
     assert done.exit_code == 0, done.output
-    assert f"At the place {place or 'thinnest'} the surfaces run against each other" in done.output
+    named = "highest pressure" if place == "worst" else "the thinnest film"
+    assert f"At the place of {named} the surfaces run against each other" in done.output
     assert "contact with the thinnest film" not in done.output
     steady = load_element(file).thinnest_steady()
     assert load_scene(scene).speeds.slide_roll_ratio == pytest.approx(steady.slide_roll_ratio, rel=1e-6)
