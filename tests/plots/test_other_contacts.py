@@ -34,7 +34,7 @@ CYCLES = {"cycles": {"settled": 2}}
 
 
 def run_of(scene=None, **variables):
-    return SimpleNamespace(dataset=xr.Dataset(variables, attrs={"axes": "load"}), scene=scene or CYCLES)
+    return SimpleNamespace(dataset=xr.Dataset(variables, attrs={"axes": "load"}), scene=scene or CYCLES, summary={})
 
 
 def drawn(draw, run):
