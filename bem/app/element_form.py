@@ -35,7 +35,8 @@ _HEAD = re.compile(r"\[(?P<name>[a-z_]+)\]")
 _MORE = {
     "length": "of rollers, such as 12 mm",
     "pitch_diameter": "such as 60 mm; without it the mean of bore and outside",
-    "hertz_pressure": "such as 1.2 GPa, in place of the load or torque: on the inner ring, or at the pitch point",
+    "hertz_pressure": "such as 1.2 GPa, in place of the load or torque: highest on the inner ring (of rollers in their "
+    "most loaded slice), or at the pitch point",
     "fatigue_load_limit": "such as 0.8 kN; C_u, without it from C0",
     "contamination_factor": "such as 0.5; e_C in place of cleanliness",
     "reliability": "such as 95; in per cent, 90 without it",

@@ -53,7 +53,9 @@ def element(
     contacts: Annotated[
         bool,
         typer.Option(
-            "--contacts", help="Show the table of all contacts in place of the answer; solves no film but of bushes."
+            "--contacts",
+            help="Show the table of all contacts in place of the answer; solves no film but of bushes and of a heat "
+            "balance.",
         ),
     ] = False,
     running: Annotated[
@@ -79,7 +81,7 @@ def element(
       bem element bearing.toml --cases loads.csv --table worst.csv
     """
     from bem.cli._quantity import new_file
-    from bem.cli._terminal import print_text, print_written, show_warnings
+    from bem.cli._terminal import Terminal, print_text, print_written, show_warnings
     from bem.cli.run import tell_compiling
     from bem.elements.answer import all_notes, balance_heat, contact_words, place_words, scene_notes, table_columns
     from bem.elements.element import load_element, unusual_values_named
@@ -108,8 +110,10 @@ def element(
         return
     loaded = load_element(file)
     tell_compiling(loaded)
-    with unusual_values_named(loaded):
-        found = balance_heat(loaded)
+    with unusual_values_named(loaded), Terminal() as terminal:
+        found = balance_heat(
+            loaded, told=lambda done, total: terminal.progress(done, total, "heat balance, films of a round", {})
+        )
     whole = at == "path"
     chosen = found.critical() if whole or not at else _chosen(found, at)
     if not at and scene is not None:
@@ -199,10 +203,14 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...],
         tell_compiling(cases[0])
         with Terminal() as terminal:
             balanced = []
+
+            def show_films(done: int, total: int) -> None:
+                terminal.progress(done, total, "films of the case", {})
+
             for done, one in enumerate(cases):
                 terminal.progress(done, len(cases), "cases", {})
-                balanced.append(balance_heat(one))
-                runs.append(run_all(balanced[-1], most=PLACES))
+                balanced.append(balance_heat(one, told=show_films))
+                runs.append(run_all(balanced[-1], show_films, most=PLACES))
         cases = tuple(balanced)
     found = columns(cases, runs, changed)
     told: list[Sequence[Note]] = []

@@ -25,7 +25,7 @@ from bem.elements.bush_answer import (
     thick_film_words,
 )
 from bem.elements.cam_follower import CamModel
-from bem.elements.contact import ElementContact
+from bem.elements.contact import EVEN, ElementContact
 from bem.elements.element import AT_MARK, LIFE, MIXED, Element
 from bem.elements.element_wear import particles_per_hour, wear_per_hour, worn_volume_rate
 from bem.elements.gear_pair import GearModel
@@ -38,9 +38,9 @@ from bem.elements.gear_scuffing import (
 )
 from bem.elements.model import LEAST_ASPERITY_SHARE
 from bem.elements.plain_bush import PlainBushModel
-from bem.elements.rolling_bearing import BearingModel
+from bem.elements.rolling_bearing import USUAL_BALL_FRICTION, BearingModel
 from bem.elements.rough_scenes import FINISHES
-from bem.elements.running import Running, columns, run_all
+from bem.elements.running import Running, columns, over_slices, run_all
 from bem.elements.running import notes as film_notes
 from bem.errors import InputError
 from bem.notes import Note
@@ -129,18 +129,20 @@ def friction_power(element: Element, runs: Sequence[Running]) -> FrictionPower:
         return abs(one.slide_roll_ratio) <= 2
 
     def mean(value: Callable[[Running], float]) -> float:
-        """Return the mean over all places of value per load times load.
+        """Return the mean over all places of value per load times load, of rollers summed over slices.
 
         Places that are on both rings of a bearing keep their own values.
         """
         own = {one.contact: value(one) for one in known}
-        at = np.array([one.contact.place for one in known])
-        per_load = np.array([value(one) / one.contact.load for one in known])
 
         def power(one: ElementContact) -> float:
             if one.slices:
-                return _over_slices(one, known, value)
-            return own[one] if one in own else one.load * float(np.interp(one.place, at, per_load))
+                return over_slices(one, known, value)
+            if one in own:
+                return own[one]
+            like = [run for run in known if run.contact.path == one.path] or known
+            per_load = [value(run) / run.contact.load for run in like]
+            return one.load * float(np.interp(one.place, [run.contact.place for run in like], per_load))
 
         return found.mean(power, steady) * found.at_once
 
@@ -158,21 +160,6 @@ def friction_power(element: Element, runs: Sequence[Running]) -> FrictionPower:
     return FrictionPower(
         mean(lambda one: one.power), mixed, down, up, 1 - found.mean(lambda one: 1.0, lambda one: not steady(one))
     )
-
-
-def _over_slices(contact: ElementContact, runs: Sequence[Running], value: Callable[[Running], float]) -> float:
-    """Return the sum of a value over the slices of a line between tilted rings.
-
-    A slice has the value per length that a film of its load per length has, linear between the solved films on the same
-    ring and none without load.
-    """
-    import numpy as np
-
-    alike = [run for run in runs if run.contact.radii == contact.radii] or runs
-    known = sorted((run.contact.load, value(run)) for run in alike)
-    loads, values = zip((0.0, 0.0), *known, strict=True)
-    assert contact.length is not None  # all contacts of a bearing have this length
-    return float(np.mean(np.interp([contact.length * each for each in contact.slices], loads, values)))
 
 
 def _power_with_asperities(one: Running, boundary: float) -> float:
@@ -217,7 +204,9 @@ def _power_without_films(element: Element) -> float | None:
     return None
 
 
-def balance_heat(element: Element, *, most: int = PLACES) -> Element:
+def balance_heat(
+    element: Element, *, most: int = PLACES, told: Callable[[int, int], None] = lambda done, total: None
+) -> Element:
     """Return the element with the bulk temperature of its heat balance, or of gears without one an estimate.
 
     The bulk temperature is that of the surroundings plus friction power (`likely_power`) over conductance,
@@ -225,10 +214,11 @@ def balance_heat(element: Element, *, most: int = PLACES) -> Element:
     temperature, as ISO/TS 6336-22 takes the viscosity in its film thickness (known from textbooks; the standard was not
     read): without one of the file it is that of scuffing, `bem.elements.gear_scuffing.estimated_bulk`. A lubricated
     bush without a balance has the usual conductance. Other elements without a balance are returned as they are.
+    `told` says how many films of a round are solved.
     """
     balance = element.model.heat_balance
     if isinstance(element.model, PlainBushModel):
-        return _balance_bush(element, element.model)
+        return _balance_bush(element, element.model, told)
     if isinstance(element.model, GearModel) and (estimate := estimated_bulk(element)) is not None:
         return element.at_bulk(estimate, estimated=True)
     if balance is None or element.model.oil is None or element.model.oil.temperature is None:
@@ -241,7 +231,7 @@ def balance_heat(element: Element, *, most: int = PLACES) -> Element:
         at = heat.at_bulk(temperature)
         power = _power_without_films(at)
         if power is None:
-            power = likely_power(at, run_all(at, most=most))
+            power = likely_power(at, run_all(at, told, most=most))
         return around + power / conductance - temperature
 
     start = around
@@ -255,7 +245,7 @@ def balance_heat(element: Element, *, most: int = PLACES) -> Element:
     return element.at_bulk(_balanced(partial(excess_with, element), start))
 
 
-def _balance_bush(element: Element, model: PlainBushModel) -> Element:
+def _balance_bush(element: Element, model: PlainBushModel, told: Callable[[int, int], None]) -> Element:
     """Return a lubricated bush at the temperature of its heat balance, with the usual conductance if none is given.
 
     A dry bush, one of given temperature, and one whose liquid has no temperature are returned as they are: their
@@ -268,7 +258,7 @@ def _balance_bush(element: Element, model: PlainBushModel) -> Element:
 
     def excess(temperature: float) -> float:
         at = element.at_bulk(temperature)
-        runs = [one for one in run_all(at) if one.converged]
+        runs = [one for one in run_all(at, told) if one.converged]
         if not runs:
             raise _NoFilm
         return model.surroundings + likely_power(at, runs) / model.conductance - temperature
@@ -531,9 +521,13 @@ def contact_words(element: Element, one: ElementContact) -> str:
     hertz = one.hertz(element.modulus)
     sliding = abs(one.speeds[0] - one.speeds[1])
     moves = f"entrainment {one.mean_speed:.3g} m/s" + (f", sliding {sliding:.3g} m/s" if sliding else ", pure rolling")
+    uneven = one.load / one.carried
+    slice_words = f" in its most loaded slice ({uneven:.3g} x its mean load per length)" if uneven > EVEN else ""
+    if isinstance(element.model, BearingModel):
+        slice_words += element.model.edge_words
     return (
-        f"{place_words(element, one)}: Hertz pressure {with_unit(hertz.maximum_pressure, 'Pa')}, "
-        f"load {with_unit(one.load, 'N')}, radius {with_unit(one.radius, 'm')}, {moves}"
+        f"{place_words(element, one)}: Hertz pressure {with_unit(hertz.maximum_pressure, 'Pa')}{slice_words}, "
+        f"load {with_unit(one.carried, 'N')}, radius {with_unit(one.radius, 'm')}, {moves}"
     )
 
 
@@ -677,10 +671,23 @@ def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str,
             )
         )
     elif isinstance(model, BearingModel):
-        spin = "spin of the balls, " if model.axial_load else ""
-        moment = f"{1e3 * power.film / model.speed:.3g} N mm of the oil films, without {spin}cage, churning and seals"
-        rows.append(("friction moment", moment))
+        rows.append(("friction moment", _moment(model, power.film)))
     return [("friction power", "; ".join(said)), *rows]
+
+
+def _moment(model: BearingModel, power: float) -> str:
+    """Return the friction moment of a bearing in words: of the films, whose power is given [W], and what is missing."""
+    said = f"{plain_digits(1e3 * power / model.speed, 3)} N mm of the oil films"
+    if model.length is not None:
+        return f"{said}, without cage, roller ends, churning and seals"
+    said += " in pure rolling: sliding within the curved contacts (Heathcote) and spin of the balls are missing"
+    usual = 1e3 * USUAL_BALL_FRICTION * model.load * 0.5 * model.bore
+    if model.axial_load:
+        return f"{said}, as are cage, churning and seals"
+    return (
+        f"{said}, as are cage, churning and seals; the usual estimate, {USUAL_BALL_FRICTION:g} x load x bore / 2, is "
+        f"{plain_digits(usual, 3)} N mm"
+    )
 
 
 def _temperatures(element: Element, runs: Sequence[Running]) -> str:

@@ -104,10 +104,10 @@ def bearing_life(element: Element, viscosity_ratio: float | None = None) -> Bear
         reliability=model.reliability,
     )
     pressure = None
-    if model.length is None:
+    if model.slices is None:
         reference = ball_reference_life(geometry, rating, model.shared)
     else:
-        reference = roller_reference_life(geometry, rating, model.sliced_rollers())
+        reference = roller_reference_life(geometry, rating, model.slices)
         inner = element.found.contacts[0]
         assert reference.highest_slice is not None
         pressure = math.sqrt(reference.highest_slice * element.modulus / (math.pi * inner.radius))
@@ -184,8 +184,8 @@ def life_rows(element: Element, film_ratio: float | None = None) -> list[tuple[s
             )
         else:
             said = (
-                f"{name} = {_life(film_life, speed)}: use this one, as lambda = {film_ratio:.3g} of these rough "
-                f"surfaces stands for kappa = {film:.3g}. With the usual finish of bearings {said}"
+                f"{name} = {_life(film_life, speed)} with kappa = {film:.3g}, for which lambda = {film_ratio:.3g} of "
+                f"these rough surfaces stands. With the usual finish of bearings {said}"
             )
     rows.append(("modified rating life", said))
     said = f"L10r = {_life(life.reference.basic, speed)}"
@@ -199,9 +199,11 @@ def life_rows(element: Element, film_ratio: float | None = None) -> list[tuple[s
         said += f", modified {modified}{each}"
     said += "; ISO/TS 16281, from the load of every rolling element at this clearance"
     if life.slice_pressure is not None:
+        edge = f"{model.edge_words}, which L10r has as a factor" if model.edge_words else ""
         tilt = f"tilt {1e3 * model.tilt:.3g} mrad" if model.tilt else "no tilt"
         said += (
-            f" and slice by slice ({model.profile} profile, {tilt}; highest slice {1e-9 * life.slice_pressure:.3g} GPa)"
+            f" and slice by slice ({model.profile} profile, {tilt}; highest slice "
+            f"{1e-9 * life.slice_pressure:.3g} GPa{edge})"
         )
     rows.append(("reference rating life", said))
     rows.append(

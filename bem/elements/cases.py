@@ -163,7 +163,7 @@ def columns(
     found |= {key: list(values) for key, values in changed.items()}
     worst = [one.critical() for one in cases]
     found["worst"] = [place_words(one, contact) for one, contact in zip(cases, worst, strict=True)]
-    found["load [N]"] = [contact.load for contact in worst]
+    found["load [N]"] = [contact.carried for contact in worst]
     found["hertz_pressure [Pa]"] = [
         contact.hertz(one.modulus).maximum_pressure for one, contact in zip(cases, worst, strict=True)
     ]

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from bem.lubrication import Lubricant
     from bem.reference_solutions.line_film import InletFilm
 
+EVEN = 1.005
+"""Highest load per length of a roller over its mean below which its load counts as even."""
 WIDE = 0.3
 """Contact half-length a over the smallest radius R of a body from which on its roundness is said: the gap of two nearly
 equal circles is 1 + 3/4 (a / R)^2 of its parabola at the edge (series of x^2 / 2 R), here 7 % over it."""
@@ -25,14 +27,15 @@ class ElementContact:
     ----------
     name : which, such as "inner ring, 40 deg".
     place : where, as the element counts it: an angle [rad] or a distance along the path [m].
-    load : [N].
+    load : [N]; of a sliced line that of its most loaded slice on the whole length.
     radii : of both bodies along the motion [m], negative where hollow.
     across : radius of relative curvature across the motion [m]; infinite for a line.
     length : of a line [m]; None for a point.
     speeds : of both surfaces over the contact, along the motion [m/s].
     inlet : how far before the axis the gap begins to be full of oil [m]; infinite where it is flooded.
-    slices : loads per length of equal slices along a line between tilted rings [N/m], whose highest is load over
-        length; empty where the load is even.
+    slices : loads per length of equal slices along a roller [N/m], whose highest is load over length; empty where the
+        load is even by definition.
+    path : name of the one of several paths that it is on, such as "outer ring"; empty where there is one.
     """
 
     name: str
@@ -44,6 +47,14 @@ class ElementContact:
     length: float | None = None
     inlet: float = math.inf
     slices: tuple[float, ...] = ()
+    path: str = ""
+
+    @property
+    def carried(self) -> float:
+        """Load that the contact carries, of a sliced line the sum over its slices [N]."""
+        if not self.slices or self.length is None:
+            return self.load
+        return self.length * sum(self.slices) / len(self.slices)
 
     @property
     def radius(self) -> float:

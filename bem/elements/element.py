@@ -20,7 +20,7 @@ from bem.arguments import read_small
 from bem.elements.bush_answer import bush_temperature, friction_power_of, journal_beside, journal_words
 from bem.elements.bush_friction import SharedFriction, shared_friction
 from bem.elements.cam_follower import CamModel
-from bem.elements.contact import WIDE, ElementContact
+from bem.elements.contact import EVEN, WIDE, ElementContact
 from bem.elements.gear_pair import GearModel
 from bem.elements.model import Contacts, ElementModel, HeatBalanceScene
 from bem.elements.passes import time_words
@@ -250,7 +250,7 @@ class Element:
         contacts, modulus = self.found.contacts, self.modulus
         found = {
             f"{self.found.along} [{self.found.along_unit}]": [one.place for one in contacts],
-            "load [N]": [one.load for one in contacts],
+            "load [N]": [one.carried for one in contacts],
             "load_per_length [N/m]": [one.line_load(modulus) for one in contacts],
             "radius_1 [m]": [one.radii[0] for one in contacts],
             "radius_2 [m]": [one.radii[1] for one in contacts],
@@ -441,7 +441,7 @@ class Element:
         base = {
             "kind": kind,
             "name": self.model.name,
-            "description": "; ".join([f"{self.model.element}: {contact.name}", *assumed]),
+            "description": "; ".join([f"{self.model.element}: {contact.name}", *_slice_words(contact), *assumed]),
         }
         bodies = self._body_tables()
         if kind == "contact":
@@ -631,6 +631,16 @@ class Element:
             "shape": {"kind": "ellipsoid", "radius": contact.radius, "radius_y": contact.across},
             "contact": {"load": contact.load},
         }
+
+
+def _slice_words(contact: ElementContact) -> list[str]:
+    """Return the load of a scene of an unevenly loaded roller in words; none of other contacts."""
+    if contact.load < EVEN * contact.carried:
+        return []
+    return [
+        f"the load {with_unit(contact.load, 'N')} is that of its most loaded slice on the whole length; the roller "
+        f"carries {with_unit(contact.carried, 'N')}"
+    ]
 
 
 def rpm(speed: float) -> float:

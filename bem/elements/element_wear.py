@@ -71,7 +71,7 @@ def worn_volume_rate(element: Element) -> float:
     once; 0 without a wear rate.
     """
     found = element.found
-    slid = found.mean(lambda one: one.load * abs(one.speeds[0] - one.speeds[1]))
+    slid = found.mean(lambda one: one.carried * abs(one.speeds[0] - one.speeds[1]))
     bodies = 1 if isinstance(element.model, PlainBushModel) else 2
     return bodies * (element.model.specific_wear_rate or 0.0) * slid * found.at_once
 

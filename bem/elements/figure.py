@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from bem.elements.element import Element
 from bem.elements.model import LEAST_ASPERITY_SHARE
 from bem.elements.plain_bush import PlainBushModel, sliding_to_depth, worn_out_depth
-from bem.elements.running import Running
+from bem.elements.running import Running, friction_sums
 from bem.physical_constants import ZERO_CELSIUS
 
 if TYPE_CHECKING:
@@ -99,6 +99,17 @@ def _bush(element: Element, model: PlainBushModel, runs: Sequence[Running], figu
     return figure
 
 
+_HEADROOM = 1.06
+"""Upper end of an axis from zero over the highest value, so that markers stand clear of the frame."""
+
+
+def _from_zero(axes: Any) -> None:
+    """Let an axis begin at zero and leave room for markers above the highest value."""
+    values = [float(value) for line in axes.lines for value in line.get_ydata()]
+    highest = max((value for value in values if math.isfinite(value)), default=0.0)
+    axes.set_ylim(0, _HEADROOM * highest if highest > 0 else None)
+
+
 def _abscissa(element: Element, value: float) -> float:
     return math.degrees(value) if element.found.along_unit == "rad" else 1e3 * value
 
@@ -107,8 +118,7 @@ def _branches(element: Element, contacts: Sequence[Any]) -> dict[str, list[int]]
     """Return indices of contacts by ring of a bearing, or all under one empty name, in the order of their places."""
     found: dict[str, list[int]] = {}
     for i, one in enumerate(contacts):
-        ring = one.name.partition(",")[0] if one.name.endswith("deg") and "," in one.name else ""
-        found.setdefault(ring, []).append(i)
+        found.setdefault(one.path, []).append(i)
     return {name: sorted(rows, key=lambda i: contacts[i].place) for name, rows in found.items()}
 
 
@@ -134,11 +144,11 @@ def _loads(element: Element, axes: Any) -> None:
         dash = ("-", "--")[number % 2]
         axes.plot(x, [1e-9 * contacts[i].hertz(element.modulus).maximum_pressure for i in rows], dash, color="C0",
                   label=ring or None)  # fmt: skip
-        right.plot(x, [1e-3 * contacts[i].load for i in rows], dash, color="C1")
+        right.plot(x, [1e-3 * contacts[i].carried for i in rows], dash, color="C1")
     axes.set_ylabel("Hertz pressure (GPa)", color="C0")
     right.set_ylabel("load (kN)", color="C1")
-    axes.set_ylim(bottom=0)
-    right.set_ylim(bottom=0)
+    _from_zero(axes)
+    _from_zero(right)
     if axes.get_legend_handles_labels()[0]:
         axes.legend(frameon=False, fontsize="small")
 
@@ -160,7 +170,7 @@ def _films(element: Element, known: Sequence[Running], axes: Any) -> None:
         axes.plot(x, [one.minimum_film * (1e9 if scale is None else 1 / scale) for one in known], ".", color="C0",
                   label="solved")  # fmt: skip
     axes.set_ylabel("minimum film (nm)" if scale is None else "lambda ratio")
-    axes.set_ylim(bottom=0)
+    _from_zero(axes)
     axes.legend(frameon=False, fontsize="small")
 
 
@@ -168,15 +178,16 @@ def _friction(element: Element, known: Sequence[Running], axes: Any) -> None:
     """Draw friction over the path."""
     right = axes.twinx()
     contacts = [one.contact for one in known]
+    sums = [friction_sums(one, known) for one in contacts]
+    friction, power = [abs(one[0]) for one in sums], [one[1] for one in sums]
     for number, rows in enumerate(_branches(element, contacts).values()):
         dash = ("-", "--")[number % 2]
-        friction, power = [abs(one.friction) for one in known], [one.power for one in known]
         axes.plot(*_broken(contacts, rows, element, friction), dash, marker=".", color="C0")
         right.plot(*_broken(contacts, rows, element, power), dash, marker=".", color="C1")
-    axes.set_ylim(bottom=0)
+    _from_zero(axes)
     axes.set_ylabel("friction coefficient\n(magnitude)", color="C0")
     right.set_ylabel("friction power (W)", color="C1")
-    right.set_ylim(bottom=0)
+    _from_zero(right)
 
 
 def _temperatures(element: Element, known: Sequence[Running], axes: Any) -> None:

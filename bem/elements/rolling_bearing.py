@@ -2,14 +2,14 @@
 
 Load share: each element is pressed in by delta cos(psi) - c/2 on radial shift delta and clearance c, and carries K
 times that to the power n (Stribeck 1901, Sjovall 1933; Harris, *Rolling Bearing Analysis*, ch. 7). Of balls K and
-n = 1.5 are Hertz' for both rings, exact; of rollers they are Palmgren's, 3.84e-5 Q^0.9 / l^0.8 in mm and N for each
-steel ring (n = 10/9). Both surfaces roll at omega d_m (1 - gamma^2) / 4 over either ring, gamma = D / d_m.
+n = 1.5 are Hertz' for both rings, exact. Rollers are cut into slices, which carry by their own compression between
+profile and rings (n = 10/9, `reference_life`), tilted rings or not. Both surfaces roll at omega d_m (1 - gamma^2) / 4
+over either ring, gamma = D / d_m.
 
 Balls carry an axial load at contact angles of their own (`ball_load`). Spin and differential slip of balls are left
-out, as are edges and skew of rollers, whose load is even along the length; between tilted rings a contact has the load
-per length of its most loaded slice (`reference_life`), and friction is that of all slices. The line film of a scene
-takes the middle of a ball's ellipse, and no oil that leaves sideways. The centrifugal force is in the loads of the
-outer ring, not in how the load is shared.
+out, as are edge pressure and skew of rollers. A contact of a roller has the load per length of its most loaded slice,
+and its friction is that of all slices. The line film of a scene takes the middle of a ball's ellipse, and no oil that
+leaves sideways. The centrifugal force is in the loads of the outer ring, not in how the load is shared.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from bem.elements.ball_load import BallLoads, share_with_axial_load
-from bem.elements.contact import ElementContact
+from bem.elements.contact import EVEN, ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.elements.rating_life import BearingGeometry, Cleanliness
 from bem.elements.reference_life import SlicedRollers, slice_rollers
@@ -35,6 +35,10 @@ from bem.scenes.common import PositiveLength, PositivePressure, problem
 from bem.scenes.units import Angle, Force, Length, Number, Ratio, RotationSpeed
 
 _STEEL_DENSITY = 7800.0  # kg/m^3, of elements whose material says none
+USUAL_BALL_FRICTION = 0.0015
+"""Friction coefficient of deep groove ball bearings at the bore, at P = C / 10 and well lubricated (catalogues)."""
+BALL_POWER = 1.5
+"""Exponent of the load of a ball in its compression between both rings (Hertz)."""
 
 
 GrooveRatio = Annotated[float, Number("", "the radius of the groove over the diameter of a ball", "0.52")]
@@ -45,7 +49,8 @@ class BearingModel(ElementModel):
     """A radial bearing with a turning inner ring: dimensions of a catalogue or measured, load, clearance, speed.
 
     Body 1 is the ring, body 2 the ball or roller. Without `pitch_diameter` it is the mean of bore and outside. The load
-    is `radial_load`, or the one that gives `hertz_pressure` under the most loaded rolling element of the inner ring.
+    is `radial_load`, or the one that gives `hertz_pressure`, the highest Hertz pressure on the inner ring: of rollers
+    that of the most loaded slice, with their profile and tilt.
     For the rating life: `dynamic_load_rating`, `static_load_rating` and `fatigue_load_limit` of a catalogue, which
     follow from the geometry where they are left out; `cleanliness`, or `contamination_factor` itself; `reliability` in
     per cent. Of rollers `profile` and `tilt` of the rings against each other. Of balls `axial_load`, with
@@ -106,6 +111,13 @@ class BearingModel(ElementModel):
         return self
 
     @property
+    def edge_words(self) -> str:
+        """Words behind the highest pressure of straight rollers, whose sharp ends it leaves out; empty for others."""
+        if self.length is None or self.profile != "straight":
+            return ""
+        return " without edge pressure"
+
+    @property
     def pitch(self) -> float:
         """Pitch diameter: of the circle of the middles of the elements [m]."""
         return 0.5 * (self.bore + self.outside) if self.pitch_diameter is None else self.pitch_diameter
@@ -122,14 +134,14 @@ class BearingModel(ElementModel):
             return self.radial_load
         assert self.hertz_pressure is not None
         highest = self._load_under(self.hertz_pressure)
-        if self.tilt:
-            return self._load_of_tilted(highest)
-        stiffness, power = self._stiffness()
+        if self.length is not None:
+            return self._load_of_slices(highest)
+        stiffness, power = self._stiffness(), BALL_POWER
         shift = (highest / stiffness) ** (1 / power) + 0.5 * self.clearance
         pressed = [max(shift * math.cos(a) - 0.5 * self.clearance, 0.0) for a in self._angles]
         return stiffness * sum(one**power * math.cos(a) for one, a in zip(pressed, self._angles, strict=True))
 
-    def _load_of_tilted(self, highest: float) -> float:
+    def _load_of_slices(self, highest: float) -> float:
         """Return the radial load [N] under which the most loaded slice of all has a load per length [N/m] that gives
         `highest` [N] on the whole length of a roller."""
         from scipy.optimize import brentq
@@ -155,9 +167,9 @@ class BearingModel(ElementModel):
         unit = ellipse_contact(radii=(along, inner.across), contact_modulus=modulus, load=1.0)
         return (pressure / unit.maximum_pressure) ** 3
 
-    def _stiffness(self) -> tuple[float, float]:
+    def _stiffness(self) -> float:
         modulus = contact_modulus(self.first.build(), self.second.build())
-        return _stiffness(self, _races(self), modulus)
+        return _ball_stiffness(self, _races(self), modulus)
 
     @property
     def _angles(self) -> list[float]:
@@ -170,7 +182,7 @@ class BearingModel(ElementModel):
             return [float(load) for load in self.ball_loads.loads]
         if self.slices is not None:
             return [float(load) for load in self.slices.loads.sum(axis=1)]
-        return share(self.load, *self._stiffness(), self.clearance, self._angles)
+        return share(self.load, self._stiffness(), BALL_POWER, self.clearance, self._angles)
 
     @cached_property
     def ball_loads(self) -> BallLoads | None:
@@ -180,7 +192,7 @@ class BearingModel(ElementModel):
         return share_with_axial_load(
             self.load,
             self.axial_load,
-            stiffness=self._stiffness()[0],
+            stiffness=self._stiffness(),
             centre_distance=(2 * self.groove - 1) * self.diameter,
             clearance=self.clearance,
             angles=np.array(self._angles),
@@ -188,12 +200,8 @@ class BearingModel(ElementModel):
 
     @cached_property
     def slices(self) -> SlicedRollers | None:
-        """Slices of the rollers between tilted rings; None without tilt."""
-        return self.sliced_rollers() if self.tilt else None
-
-    def sliced_rollers(self) -> SlicedRollers:
-        """Loads of the slices of all rollers."""
-        return self._sliced(self.load)
+        """Loads of the slices of all rollers; None for balls."""
+        return None if self.length is None else self._sliced(self.load)
 
     def _sliced(self, load: float) -> SlicedRollers:
         """Loads of the slices of all rollers under a radial load [N]."""
@@ -219,7 +227,7 @@ class BearingModel(ElementModel):
                         ElementContact(
                             f"{race.name}, {round(turned, 1):g} deg", math.radians(turned), total,
                             (race.radius, 0.5 * self.diameter), (rolling, rolling), race.across, self.length,
-                            slices=() if self.slices is None else self.slices.along(number, total),
+                            slices=() if self.slices is None else self.slices.along(number, total), path=race.name,
                         )
                     )  # fmt: skip
         return Contacts(
@@ -252,18 +260,15 @@ def _unevenness(rollers: SlicedRollers | None) -> dict[int, float]:
     return {number: float(slices.max() / slices.mean()) for number, slices in enumerate(rollers.loads) if slices.any()}
 
 
-def _stiffness(model: BearingModel, races: Sequence[_Race], modulus: float) -> tuple[float, float]:
-    """Return the stiffness K [N/m^n] and the exponent n of one element between both rings."""
-    if model.length is not None:
-        per_ring = (1e3 * model.length) ** (8 / 9) / 3.84e-5 ** (10 / 9)  # Q = (l^0.8 d / 3.84e-5)^(1/0.9), in mm
-        return per_ring * (0.5 * 1e3) ** (10 / 9), 10 / 9
+def _ball_stiffness(model: BearingModel, races: Sequence[_Race], modulus: float) -> float:
+    """Return the stiffness K [N/m^1.5] of one ball between both rings."""
     ball = 0.5 * model.diameter
     single = []
     for race in races:
         radii = (1 / (1 / race.radius + 1 / ball), race.across)
         one = ellipse_contact(radii=radii, contact_modulus=modulus, load=1.0)
         single.append(one.approach)  # of 1 N: Hertz' approach grows with the load to the power 2/3
-    return sum(single) ** -1.5, 1.5
+    return sum(single) ** -BALL_POWER
 
 
 def share(load: float, stiffness: float, power: float, clearance: float, angles: Sequence[float]) -> list[float]:
@@ -326,11 +331,15 @@ def _load_sharing(model: BearingModel, shared: Sequence[float], pressed_out: flo
         )
     if model.slices is not None:
         critical = int(model.slices.loads.max(axis=1).argmax())
+        rings = f"rings tilted by {1e3 * model.tilt:.3g} mrad" if model.tilt else "rings without tilt"
+        uneven = _unevenness(model.slices)[critical]
+        rollers = f"{model.profile.capitalize()} rollers, {rings}"
         said.append(
-            f"The rings are tilted by {1e3 * model.tilt:.3g} mrad: the most loaded slice of the critical roller has "
-            f"{_unevenness(model.slices)[critical]:.3g} times that roller's mean load per length. Every contact has "
-            "the pressure of its most loaded slice, and as its load that which gives this pressure on the whole "
-            "length; the friction power is the sum over slices."
+            f"{rollers}: the most loaded slice of the critical roller has {uneven:.3g} times that roller's mean load "
+            "per length. Pressure, film and temperatures of a contact are those of its most loaded slice; load and "
+            "friction are sums over slices."
+            if uneven > EVEN
+            else f"{rollers}: their load is even along the length."
         )
     if pressed_out > 0.05 * highest:
         said.append(

@@ -50,7 +50,7 @@ KAPPA_ABOVE_FILM = define(
             "kappa = {kappa:.3g} is the viscosity over the one that bearings of usual finish need. These surfaces have "
             "lambda = {ratio:.3g}, which stands for kappa = {film:.3g} (ISO 281: kappa is about lambda to the power "
             "1.3).",
-            "Use the modified lives with the kappa of lambda, {film:.3g}.",
+            "The modified lives given first (in tables of cases the only ones) have the kappa of lambda, {film:.3g}.",
         ),
         "not defined": Reason(
             "kappa = {kappa:.3g} is the viscosity over the one that bearings of usual finish need. These surfaces have "

@@ -130,7 +130,8 @@ def test_lives_of_a_bearing():
     assert clean.reference.basic == life.reference.basic
     tilted = bearing_life(load_element(STEEL_BEARING | {"tilt": "2 mrad"}))
     assert tilted.reference.basic < life.reference.basic
-    assert tilted.slice_pressure > life.slice_pressure > found.worst().hertz(found.modulus).maximum_pressure
+    assert life.slice_pressure == pytest.approx(found.worst().hertz(found.modulus).maximum_pressure, rel=1e-9)
+    assert tilted.slice_pressure > life.slice_pressure
     safer = bearing_life(load_element(STEEL_BEARING | {"reliability": 99}))
     assert safer.rating.modified == pytest.approx(0.25 * life.rating.modified)
 
@@ -357,7 +358,8 @@ def test_a_favourable_kappa_beside_a_thin_film_is_said():
     assert film.modified_reference < bearing_life(rough).modified_reference
     said = dict(life_rows(rough, 1.1))
     assert f"L10m = {film.rating.modified / 1e6:.3g} million" in said["modified rating life"]
-    assert "use this one, as lambda = 1.1 of these rough surfaces" in said["modified rating life"]
+    assert f"with kappa = {1.1**1.3:.3g}, for which lambda = 1.1 of these rough" in said["modified rating life"]
+    assert "given first" in str(note)
     assert "with the kappa of lambda (" in said["reference rating life"]
     assert "lambda" not in str(life_rows(rough, 3.0))
     assert life_notes(rough, 3.0) == ()
@@ -371,10 +373,9 @@ def test_no_life_is_recommended_where_iso_281_defines_none():
     rough = load_element(STEEL_BEARING | {"rms_roughness": "1 um"})
     (note,) = life_notes(rough, 0.066)
     assert "kappa of lambda is 0.029, below 0.1" in note.headline
-    assert "Use the modified lives" not in str(note)
+    assert "given first" not in str(note)
     said = dict(life_rows(rough, 0.066))["modified rating life"]
     assert said.startswith("L10m not defined: kappa 0.029")
-    assert "use this one" not in said
 
 
 def test_a_load_above_the_static_rating_is_a_caution():

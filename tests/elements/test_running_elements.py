@@ -2,6 +2,7 @@
 
 import csv
 import functools
+import math
 import re
 import tomllib
 from dataclasses import replace
@@ -11,15 +12,25 @@ import pytest
 from command_line import run_command
 
 from bem import InputError, load_scene, run_scene
-from bem.elements.answer import answer, friction_power
+from bem.elements.answer import answer, balance_heat, friction_power
 from bem.elements.bearing_life import bearing_life
 from bem.elements.cases import changed_keys, load_cases
 from bem.elements.cases import columns as case_columns
 from bem.elements.element import element_template, load_element
 from bem.elements.element_wear import worn_volume_rate
+from bem.elements.figure import element_figure
 from bem.elements.gear_pair import path_of_contact
 from bem.elements.gear_scuffing import scuffing_of
-from bem.elements.running import columns, notes, run_all, run_contact, wear_per_pass
+from bem.elements.running import (
+    Running,
+    columns,
+    notes,
+    operating_places,
+    over_slices,
+    run_all,
+    run_contact,
+    wear_per_pass,
+)
 from bem.errors import Status
 from bem.kinds.traction.run import case_of
 from bem.wear.criterion.local import Archard
@@ -366,3 +377,98 @@ def test_losses_of_gears_by_default_are_those_of_tests_with_each_oil():
     assert 330 < mineral < 560
     for base, low, high in (("pao", 0.6, 0.97), ("ester", 0.3, 1.0), ("pag", 0.2, 0.75)):
         assert low < power({"base": base}) / mineral < high
+
+
+ROLLERS_OF_NU1016 = {
+    "element": "rolling-bearing", "name": "nu1016", "rolling": "roller", "bore": "80 mm", "outside": "125 mm",
+    "diameter": "11 mm", "length": "11 mm", "count": 22, "radial_load": "15 kN", "clearance": "20 um",
+    "speed": "3000 rpm", "first": "steel-52100", "second": "steel-52100",
+    "oil": {"grade": "ISO VG 68", "temperature": "65 degC"},
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def tilted():
+    element = load_element(ROLLERS_OF_NU1016 | {"tilt": "0.6 mrad"})
+    return element, run_all(element, most=6)
+
+
+def test_the_friction_power_of_tilted_rollers_does_not_depend_on_the_number_of_films(tilted):
+    """Its lightly loaded slices were interpolated linearly to none: 242 W from 11 films and 265 W from 18."""
+    element, few = tilted
+    every = run_all(element)
+    assert len(few) < len(every) == len(element.found.contacts)
+    power = friction_power(element, every).film
+    assert friction_power(element, few).film == pytest.approx(power, rel=0.015)
+    found = columns(element, every)
+    assert sum(found["friction_power [W]"]) == pytest.approx(power, rel=1e-12)
+    assert sum(found["rolling_loss [W]"]) == pytest.approx(power, rel=1e-6)  # nothing slides
+    assert sum(one.power for one in every) > 1.15 * power  # as if whole rollers were loaded as their highest slice
+
+
+@pytest.mark.internal
+def test_light_slices_have_the_power_of_their_own_films(tilted):
+    """Against films solved at loads between those of `lighter`, and below the lightest."""
+    element, few = tilted
+    known = [one for one in few if one.converged]
+    whole = known[0].contact
+    light = [one.contact.load for one in known[0].lighter]
+    assert min(light) == pytest.approx(max(light) / 64)
+    for load in (0.3 * min(light), 3 * min(light), 0.4 * max(light)):
+        even = replace(whole, load=load, slices=(load / whole.length,) * 5)
+        own = run_contact(element, even)
+        # between films of loads eight apart within 5 %, of slices that carry little of the whole
+        assert over_slices(even, known, lambda one: one.power) == pytest.approx(own.power, rel=0.05)
+
+
+def test_a_vanishing_tilt_changes_nothing():
+    """It brought the profile into the contacts: 1.48 to 1.70 GPa, and 346 to 262 W."""
+    even, hardly = (load_element(ROLLERS_OF_NU1016 | {"tilt": tilt}) for tilt in ("0 mrad", "0.001 mrad"))
+    assert hardly.worst().hertz(hardly.modulus).maximum_pressure == pytest.approx(
+        even.worst().hertz(even.modulus).maximum_pressure, rel=1e-4
+    )
+    powers = [friction_power(one, run_all(one, most=4)).film for one in (even, hardly)]
+    assert powers[1] == pytest.approx(powers[0], rel=1e-4)
+
+
+@pytest.mark.parametrize("rolling", ["roller", "ball"])
+def test_contacts_on_both_sides_of_the_load_are_drawn_alike(rolling):
+    """The selection is even on each ring and has both sides; markers stand clear of the upper edge."""
+    given = ROLLERS_OF_NU1016 | {"clearance": 0.0, "oil": {"grade": "ISO VG 68", "temperature": "65 degC"}}
+    if rolling == "ball":
+        given = {key: value for key, value in given.items() if key != "length"} | {"rolling": "ball"}
+    element = load_element(given)
+    some = operating_places(element, 6)
+    assert len(some) < len(element.found.contacts)
+    for ring in ("inner ring", "outer ring"):
+        at = sorted(math.degrees(one.place) for one in some if one.path == ring)
+        assert at == pytest.approx([-one for one in reversed(at)], abs=1e-9)
+        assert at[-1] == max(math.degrees(one.place) for one in element.found.contacts if one.path == ring)
+    contacts = [one for one in some if one.path]
+    runs = [
+        Running(one, Status.CONVERGED, 1e-7, None, 0.0, 19 + 0.1 * abs(one.place), 340.0, 341.0) for one in contacts
+    ]
+    for axes in element_figure(element, runs).axes:
+        highest = max((max(line.get_ydata()) for line in axes.lines), default=None)
+        if axes.get_ylabel().startswith("friction power"):
+            assert axes.get_ylim()[1] > 1.05 * highest
+
+
+def test_the_heat_balance_says_how_far_it_is():
+    told = []
+    element = load_element(
+        ROLLERS_OF_NU1016 | {"thermal": "off", "heat_balance": {"conductance": "50 W/K"}, "count": 8}
+    )
+    balance_heat(element, most=2, told=lambda done, total: told.append((done, total)))
+    assert told[0] == (0, told[0][1])
+    assert told[0][1] > 2
+
+
+def test_the_friction_moment_of_balls_says_what_is_missing():
+    for name, words in (("rolling-bearing", "sliding within the curved contacts"), ("roller", "roller ends")):
+        changes = {} if name == "rolling-bearing" else {"rolling": "roller", "length": "11 mm"}
+        element = element_of("rolling-bearing", thermal="off", **changes)
+        said = dict(answer(element, run_all(element, most=2)))["friction moment"]
+        assert words in said
+        usual = 0.0015 * 4e3 * 20
+        assert (f"{usual:.3g} N mm" in said) is (name == "rolling-bearing")
