@@ -82,7 +82,8 @@ class UsualRange:
     def _likely_unit(self, value: float) -> str:
         """The unit that makes the same number usual."""
         if not self.unit:
-            return ""
+            shares = [unit for unit, factor in self.meant if self.contains(value * factor)]
+            return f'a number alone is a share; if per cent is meant, write "{value:g} {shares[0]}"' if shares else ""
         if self.unit == "K":
             likely = "degC" if self.contains(value + ZERO_CELSIUS) else None
         else:
@@ -213,6 +214,10 @@ RANGES: tuple[UsualRange, ...] = (
     UsualRange(
         "friction", "", 1e-4, 1.0, ("friction", "boundary_friction", "friction_on_film"), (),
         "boundary lubrication has 0.05 to 0.2, dry metals 0.3 to 0.6; only clean metals in vacuum and rubber exceed 1",
+    ),
+    UsualRange(
+        "creepage", "", 1e-7, 0.05, ("roll.creepage", "roll.creepage_across"), (("%", 0.01),),
+        "steel slides over the whole contact from about 1 % on, tyres from 10 %",
     ),
     UsualRange(
         "specific wear rate", "m^2/N", 1e-22, 1e-11, ("specific_wear_rate",), (("mm^3/(N*m)", 1e-9),),

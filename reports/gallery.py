@@ -167,7 +167,7 @@ def _words(error: Exception) -> str:
 
 
 def _about(name: str, scene: dict[str, Any], run: FinishedRun | str) -> str:
-    body = text(scene["description"] + (f" Redoes {scene['redoes']}." if scene.get("redoes") else ""))
+    body = text(scene["description"] + (f" Reproduces {scene['redoes']}." if scene.get("redoes") else ""))
     if '"path"' in str(scene).replace("'", '"'):
         body += text("The measured surfaces are the user's to give: two generated maps stand in for them here.")
     body += f"<pre>bem run {html.escape(name)}</pre>"

@@ -101,6 +101,8 @@ CASES = [
     (("coated-sphere", 'lower.layer.thickness="0.1 nm"'), "lower.layer.thickness", "1e-10 m"),
     (("coated-sphere", "lower.layer.material.youngs_modulus=115.0"), "lower.layer.material.youngs", "115 GPa"),
     (("flash-temperature", "lower.material.heat_capacity=4.0"), "lower.material.heat_capacity", "J/(kg*K)"),
+    (("wheel-rail", "over=", "roll.creepage=0.1"), "roll.creepage", '"0.1 %"'),
+    (("rolling-creepage", 'over={"roll.creepage_across"=[0.0, -0.2]}'), "roll.creepage_across", '"-0.2 %"'),
     (("hertz-sphere", 'shape.radius="20 nm"', 'contact.load="0.1 nN"', 'grid={shape=64, spacing="0.1 nm"}'),
      "grid.spacing", "atoms"),
 ]  # fmt: skip

@@ -73,7 +73,7 @@ def fill(figure: Any, variables: Mapping[str, Variable], spacings: Mapping[str, 
     """Fill an empty matplotlib figure with the panels of `draw_sweep`, and make it as large as they need."""
     keys = list(spacings)
     names = _chosen(variables, keys, headline)
-    variables = {name: _in_celsius(name, item) for name, item in variables.items()}
+    variables = {name: _as_tables_show(name, item) for name, item in variables.items()}
     columns = 2 if len(names) > 1 else 1
     rows = -(-len(names) // columns)
     figure.set_size_inches(3.5 * columns, 2.7 * rows + 0.3)
@@ -105,9 +105,12 @@ def _varies(values: Any) -> bool:
     return high - low > _NOISE * max(abs(low), abs(high))
 
 
-def _in_celsius(name: str, variable: Variable) -> Variable:
-    """Temperatures in °C; every other variable is the same."""
+def _as_tables_show(name: str, variable: Variable) -> Variable:
+    """Return a variable in the unit of the tables: temperatures in °C, angles in degrees where the figure's name ends
+    so; other variables are the same."""
     values, unit = in_celsius(variable.values, variable.units, name, variable.description)
+    if unit == "rad" and name.removesuffix("_error").endswith("_deg"):
+        values, unit = np.degrees(values), "°"
     return variable if unit == variable.units else variable.with_values(values, unit)
 
 

@@ -103,10 +103,23 @@ def test_a_section_is_at_the_reported_one_of_two_mirrored_maxima(tmp_path):
     field[:] = 1e8
     field[2, 20, 9] = field[2, 20, 21] = 7e8
     _, axes = axes_of(run, "von-mises-section")
-    assert axes[0].get_title(loc="right") == "y = 6 µm"
+    assert axes[0].get_xlabel().endswith(", at y = 6 µm (µm)")
     run.summary["max_von_mises_Pa"] = 7.5e8
     _, axes = axes_of(run, "von-mises-section")
     assert "maximum of the points" in axes[0].get_legend().get_texts()[-1].get_text()
+
+
+def test_interfaces_of_a_section_are_in_its_legend_and_no_title_lies_under_it(tmp_path):
+    """Dotted interfaces were taken for the yield stress, which an entry beside them calls white."""
+    run = contact_run(tmp_path)
+    bare = axes_of(run, "von-mises-section")[1][0].get_legend()
+    assert not any("interface" in text.get_text() for text in bare.get_texts())
+    run.scene["lower"]["layers"] = [{"thickness": 2e-6, "material": {"name": "Ti", "hardness": 1.0e9}}]
+    _, axes = axes_of(run, "von-mises-section")
+    texts = [text.get_text() for text in axes[0].get_legend().get_texts()]
+    assert "dotted: interface" in texts
+    assert any(text.startswith("white: yield stress") for text in texts)
+    assert not any(axes[0].get_title(loc=side) for side in ("left", "center", "right"))
 
 
 def test_files_have_the_asked_format_and_size(tmp_path):

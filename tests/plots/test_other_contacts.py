@@ -181,6 +181,21 @@ def test_panels_over_keys_name_each_unit_once():
     assert figure.axes[0].get_ylabel() == "central film thickness (nm)"
 
 
+def test_angles_over_keys_are_in_degrees_as_in_tables():
+    """The table has contact_angle_deg, the array beside it is in radians."""
+    angles = Variable(("lateral",), np.radians([1.5, 30.0]), "rad", "contact angle")
+    errors = Variable(("lateral",), np.radians([0.1, 0.2]), "rad", "contact angle")
+    shifts = Variable(("lateral",), np.array([0.001, 0.002]), "m", "shift")
+    figure = Figure()
+    variables = {"contact_angle_deg": angles, "contact_angle_deg_error": errors, "lateral": shifts}
+    fill(figure, variables, {"lateral": "list"}, ("contact_angle_deg",))
+    (axes,) = figure.axes
+    assert axes.get_ylabel() == "contact angle (°)"
+    assert axes.lines[0].get_ydata() == pytest.approx([1.5, 30.0])
+    ((_, _, (bars,)),) = axes.containers
+    assert [float(np.ptp(segment[:, 1])) for segment in bars.get_segments()] == pytest.approx([0.2, 0.4])
+
+
 def test_panels_over_keys_have_the_error_bars_of_their_points():
     """They were in the table of the sweep and not in its picture; a point without one is drawn bare."""
     films = Variable(("speed",), np.array([1e-7, 2e-7, 3e-7]), "m", "film")

@@ -103,7 +103,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
 def _combined_roughness(scene: ContactScene, grid: Grid, lower: FloatArray, upper: FloatArray) -> dict[str, Any]:
     """Return slope and plasticity indices of both surfaces' roughness together; none of smooth or single-row surfaces.
 
-    Coatings do not enter: the modulus is that of the substrates.
+    Layered bodies have no index: it is of one modulus and one hardness, and says nothing of which layer yields.
     """
     from bem.surfaces.asperities import describe_asperities, plasticity_index, slope_plasticity_index
     from bem.surfaces.describe import rms_slope, rms_slopes
@@ -114,7 +114,7 @@ def _combined_roughness(scene: ContactScene, grid: Grid, lower: FloatArray, uppe
     slope = rms_slope(rms_slopes(combined, grid.spacing, grid.periodic))
     found: dict[str, Any] = {"combined_Sdq": slope}
     hardness = scene.contact.hardness or softer_hardness(scene.lower.build(), scene.upper.build())
-    if hardness is not None and slope > 0:
+    if hardness is not None and slope > 0 and not (scene.lower.stack or scene.upper.stack):
         modulus = build.modulus_of(scene)
         asperities = describe_asperities(combined, grid.spacing, periodic=grid.periodic)
         index = plasticity_index(asperities, modulus, hardness)

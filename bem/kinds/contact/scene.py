@@ -155,7 +155,8 @@ class ContactScene(StressedScene):
         """See `SceneModel`."""
         yield from super().cited_methods()
         if any(isinstance(body.surface, GeneratedSurface | MeasuredSurface) for body in (self.lower, self.upper)):
-            yield sources.ROUGH_CONTACT
+            if not (self.lower.stack or self.upper.stack):
+                yield sources.ROUGH_CONTACT
             if all(self.grid.periodic):
                 yield sources.AREA_THEORIES
         if self.contact.adhesion is not None:

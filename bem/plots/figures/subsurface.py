@@ -65,10 +65,12 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
     bar = figure.colorbar(shown, ax=axes, pad=0.02)
     bar.set_label(label("von Mises stress", unit))
     yields: list[str] = []
+    interfaces = 0
     for medium in _media(run):
         inside = (depth > medium.top) & (depth <= medium.bottom) | (depth == 0.0) & (medium.top == 0.0)
         if 0 < medium.top < depth[-1]:
             axes.axhline(medium.top * factor_z, color="white", linewidth=0.8, linestyle=":")
+            interfaces += 1
         there = section[inside]
         limit = medium.yield_stress
         if limit is not None and len(there) > 1 and there.max() > limit > there.min():
@@ -80,6 +82,9 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
             )
     if yields:  # one line for all: they are drawn alike
         axes.plot([], [], color="0.6", linewidth=1.0, label="white: yield stress, " + ",\n".join(dict.fromkeys(yields)))
+    if interfaces:
+        name = "dotted: interface" if interfaces == 1 else "dotted: interfaces"
+        axes.plot([], [], color="0.6", linewidth=0.8, linestyle=":", label=name)
     axes.plot(
         x[ix] * factor_x,
         computed[iz] * factor_z,
@@ -93,11 +98,11 @@ def _von_mises_section(run: Any, figure: Figure) -> None:
     _mark_depths(axes, computed * factor_z)
     axes.set_xlim(across_x[0] * factor_x, across_x[-1] * factor_x)
     axes.set_ylim(depth[-1] * factor_z, depth[0] * factor_z)
-    axes.set_xlabel(label(along_x() if across == "y" else "y", unit_x))
-    axes.set_ylabel(label("depth", unit_z))
     position = run.dataset[across].values[iy]
     factor_y, unit_y = prefix([position], "m")
-    axes.set_title(f"{across} = {position * factor_y:.3g} {unit_y}", loc="right")
+    place = f"at {across} = {position * factor_y:.3g} {unit_y}"  # a title would lie under the legend
+    axes.set_xlabel(label(f"{along_x() if across == 'y' else 'y'}, {place}", unit_x))
+    axes.set_ylabel(label("depth", unit_z))
 
 
 def _depth_profile(run: Any, figure: Figure) -> None:
@@ -274,7 +279,7 @@ FIGURES = (
     FigureKind(
         "von-mises-section",
         "Von Mises stress in the plane of its maximum, by monotone cubics between the depths that were computed (ticks "
-        "inside); the line is the yield stress where it is exceeded.",
+        "inside). White lines, grey in the legend: where the yield stress is reached; dotted: interfaces of layers.",
         ("x", "y", "depth", "von_mises"),
         _von_mises_section,
         (6.5, 3.4),
