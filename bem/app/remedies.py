@@ -18,8 +18,6 @@ from bem.notes.checks import ROUGHNESS_UNRESOLVED
 from bem.notes.scenes import MAP_ALTERED
 
 BODIES = ("lower", "upper")
-_CELLS_OF_A_WAVE = 6
-"""Cells of the cutoff wavelength that is offered."""
 _DESPIKE = 6
 """Standard deviations from which points are spikes, as the note on outliers counts them."""
 _MOST_CELLS = 2048
@@ -113,8 +111,8 @@ def for_notes(table: Mapping[str, Any], scene: Any, notes: Sequence[str]) -> tup
             continue
         if "spacing" in note.values:
             spacings.append(float(note.values["spacing"]))
-        elif note.values["reason"] == "cutoff" and isinstance(table.get(note.where.split(".")[0]), Mapping):
-            wave = 0.5 * float(note.values["wave"]) * _CELLS_OF_A_WAVE
+        if "cutoff" in note.values and isinstance(table.get(note.where.split(".")[0]), Mapping):
+            wave = float(note.values["cutoff"])
             key = f"{note.where}.cutoff_wavelength"
             found[key] = Remedy(f"set {key} = {length_text(wave)}", key, length_text(wave))
     grid = getattr(scene, "grid", None)

@@ -224,7 +224,13 @@ ROUGHNESS_UNRESOLVED = define(
     reasons={
         "cutoff": Reason(
             "Without cutoff_wavelength the waves go down to two cells, {wave:si m}.",
-            "Give cutoff_wavelength, 4 to 8 cells or more.",
+            "Set cutoff_wavelength to 8 cells, {cutoff:si m}, or more; 4 cells suffice for averages.",
+        ),
+        "cutoff-finer": Reason(
+            "Without cutoff_wavelength the waves go down to two cells, {wave:si m}; 8 cells leave little of the waves"
+            " below the roll-off, {rolloff:si m}.",
+            "Take a spacing of {spacing:si m} or less and set cutoff_wavelength to {cutoff:si m}: 8 cells to the"
+            " shortest wave; 4 suffice for averages.",
         ),
         "wave": Reason(
             "There are {cells:.2g} cells to its shortest wave ({wave:si m}): contact spots come down to single cells.",
@@ -351,7 +357,7 @@ RESIDUAL_STRESS_UNUSUAL = define(
     CAUTION,
     "The residual stress is not a usual one of this coating.",
     "layers[{number}] ({material}) has {stress:si Pa}; usual are {low:si Pa} to {high:si Pa}, negative in compression.",
-    "Check the sign of residual_stress, and the source of the value.",
+    "Check the {check} of residual_stress, and the source of the value.",
 )
 PARTICLES_OF_MESH = define(
     "particles-of-mesh",

@@ -406,6 +406,27 @@ def test_cells_of_an_elongated_surface_are_looked_at_along_each_axis():
     assert fired(name, with_(ROUGH, **ridges, grid__shape=[120, 160], grid__lengths=lengths)) == []
 
 
+@pytest.mark.internal
+def test_one_rule_says_how_cells_resolve_a_self_affine_surface():
+    """A cutoff of 8 cells, and smaller cells where the roll-off lies below 16: what the note says leaves no second one.
+
+    A rule of the correlation length beside it had asked for 12 to 14 cells to a wave.
+    """
+    names = ("few_cells_per_wave", "few_cells_per_correlation_length")
+
+    def said(shape, **waves):
+        surface = self_affine(rolloff_wavelength="20 um", **waves)
+        rough = with_(ROUGH, grid__shape=shape, grid__lengths="160 um", lower__surface=surface)
+        return [words for name in names for words in fired(name, rough)]
+
+    (fine,) = said(160)
+    assert "Set cutoff_wavelength to 8 cells, 8 um, or more" in fine
+    assert said(160, cutoff_wavelength="8 um") == []
+    (coarse,) = said(64)
+    assert "a spacing of 1.25 um or less and set cutoff_wavelength to 10 um" in coarse
+    assert said(128, cutoff_wavelength="10 um") == said(64, cutoff_wavelength="10 um") == []
+
+
 @pytest.fixture
 def maps(tmp_path):
     """Maps of few points, with missing points, with nothing but form, and one as it should be."""

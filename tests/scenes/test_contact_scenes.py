@@ -350,6 +350,17 @@ def test_a_residual_stress_that_is_no_usual_one_of_the_coating_is_a_caution():
         assert has_code(scene_warnings(examine(scene)), RESIDUAL_STRESS_UNUSUAL) is told
 
 
+def test_a_residual_stress_without_a_unit_is_said_once_and_another_sign_only_where_it_would_do():
+    """-2 [Pa] is no stress of any coating: its unit is asked for, and not its sign, which is right."""
+    scene, _ = plan_scene("coated-sphere", ["lower.layer.residual_stress=-2"])
+    cautions = [str(note) for note in scene_warnings(examine(scene)) if "residual_stress" in note]
+    assert len(cautions) == 1
+    assert "-2 GPa" in cautions[0]
+    for stress, check in (("2 GPa", "sign"), ("-100 MPa", "unit")):
+        scene, _ = plan_scene("coated-sphere", [f'lower.layer.residual_stress="{stress}"'])
+        assert any(f"Check the {check} of residual_stress" in note for note in scene_warnings(examine(scene)))
+
+
 def test_the_approach_of_a_rolling_line_contact_is_said_to_have_no_meaning():
     """Of either sign: 392 um at 1 mm/s, 180 um at 1 m/s, between limits that the elastic moduli set at 225 um."""
     for speed in ("1 mm/s", "1 m/s"):
@@ -360,7 +371,7 @@ def test_the_approach_of_a_rolling_line_contact_is_said_to_have_no_meaning():
 
 
 def test_a_residual_stress_beyond_the_yield_stress_is_refused():
-    with pytest.raises(InputError, match=r"lower.layer: residual_stress -9e\+09 Pa, beyond the yield stress"):
+    with pytest.raises(InputError, match=r"residual_stress -9 GPa exceeds the yield stress of the layer, 7\.14 GPa"):
         run("coated-sphere", ["lower.layer.residual_stress=-9 GPa"])
 
 
@@ -423,6 +434,16 @@ def test_the_caution_of_a_yielding_coat_names_the_layer_that_yields_first():
     assert not list(elastic_stress_above_yield(facts, below))
     below.summary["substrate_yield_ratio"] = 1.6
     assert "steel-52100 below the coating yields first" in next(elastic_stress_above_yield(facts, below))
+
+
+def test_a_coated_rough_contact_has_no_plasticity_index():
+    """Of the substrates' modulus it was 0.18, which reads as elastic, beside layers beyond their yield stress."""
+    layer = {"material": "dlc", "thickness": "2 um"}
+    for tables, there in (({}, True), ({"lower": {"layer": layer}}, False)):
+        _, outcome, _ = run(rough(**tables))
+        assert ("plasticity_index" in outcome.summary) is there
+        assert ("slope_plasticity_index" in outcome.summary) is there
+        assert "combined_Sdq" in outcome.summary
 
 
 def test_an_elastic_patch_lies_between_the_theories_of_contact_area():

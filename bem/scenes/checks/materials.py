@@ -25,6 +25,7 @@ from bem.scenes.checks.registry import scene_check
 
 _SOFTEST = BY_NAME["Young's modulus"].low
 _LAYER = BY_NAME["thickness of a layer"]
+_STRESS = BY_NAME["residual stress"]
 _THINNER = 5.0
 """Factor below the usual thickness of a coating down to which it may be a layer of a stack, or worn."""
 _POLYMER = 5e9
@@ -111,7 +112,9 @@ def residual_stress_of_layers(facts: Facts) -> Iterator[Note]:
                         high=high,
                     )
             usual = None if entry is None else entry.residual_stress
-            if usual is not None and layer.residual_stress != 0 and not usual[0] <= layer.residual_stress <= usual[1]:
+            if usual is None or layer.residual_stress == 0 or not _STRESS.contains(layer.residual_stress):
+                continue  # outside the range of any coating, `outside_usual_range` says so
+            if not usual[0] <= layer.residual_stress <= usual[1]:
                 yield RESIDUAL_STRESS_UNUSUAL(
                     f"{name}.layers",
                     number=number,
@@ -119,6 +122,7 @@ def residual_stress_of_layers(facts: Facts) -> Iterator[Note]:
                     stress=layer.residual_stress,
                     low=usual[0],
                     high=usual[1],
+                    check="sign" if usual[0] <= -layer.residual_stress <= usual[1] else "unit",
                 )
 
 

@@ -26,6 +26,7 @@ from bem.scenes.common import GeneratedSurface
 
 _CELLS_ACROSS = 8
 _CELLS_PER_WAVE = 3
+_GOOD_CELLS_PER_WAVE = 8
 _LENGTHS_PER_GRID = 6
 
 
@@ -52,13 +53,13 @@ def few_cells_across_the_contact(facts: Facts) -> Iterator[Note]:
 def few_cells_per_wave(facts: Facts) -> Iterator[Note]:
     """A crest sampled with n cells a wave is met within 1 - cos(pi / n): 50 % with 3 cells, 29 % with 4, 8 % with 8.
 
-    Below 3 cells every contact spot is one cell. Contact areas settle from 8 on (Yastrebov, Anciaux & Molinari, Phys.
-    Rev. E 86 (2012) 035601). A generated surface without cutoff has waves of two cells whatever the mesh.
+    Below 3 cells every contact spot is one cell; averages need 4. Contact areas settle from 8 on (Yastrebov, Anciaux &
+    Molinari, Phys. Rev. E 86 (2012) 035601). A generated surface without cutoff has waves of two cells on any mesh.
     """
     for _, case, surface in facts.worst_surfaces(lambda s: max(s.grid.spacing) / (s.shortest_wave or 1.0)):
         spacing = max(surface.grid.spacing)
-        if getattr(surface.table, "hurst", None) is not None and surface.shortest_wave is None:
-            yield ROUGHNESS_UNRESOLVED(case.note_place(f"{surface.body}.surface"), wave=2 * spacing, reason="cutoff")
+        if surface.self_affine and surface.shortest_wave is None:
+            yield _cutoff_wanted(case.note_place(f"{surface.body}.surface"), surface, spacing)
         elif surface.shortest_wave is not None and surface.shortest_wave / spacing < _CELLS_PER_WAVE:
             wave = surface.shortest_wave
             yield ROUGHNESS_UNRESOLVED(
@@ -66,21 +67,41 @@ def few_cells_per_wave(facts: Facts) -> Iterator[Note]:
                 cells=wave / spacing,
                 body=surface.body,
                 wave=wave,
-                spacing=wave / 8,
-                average=wave / 4,
+                spacing=wave / _GOOD_CELLS_PER_WAVE,
+                average=2 * wave / _GOOD_CELLS_PER_WAVE,
                 reason="wave",
             )
+
+
+def _cutoff_wanted(where: str, surface: RoughSurface, spacing: float) -> Note:
+    """Return the note on a self-affine surface without cutoff: a cutoff of 8 cells, and smaller cells where that would
+    leave less than an octave of waves below the roll-off.
+
+    spacing : cell size [m].
+    """
+    cutoff, rolloff = _GOOD_CELLS_PER_WAVE * spacing, getattr(surface.table, "rolloff_wavelength", None)
+    if rolloff is None or cutoff <= 0.5 * rolloff:
+        return ROUGHNESS_UNRESOLVED(where, wave=2 * spacing, cutoff=cutoff, reason="cutoff")
+    return ROUGHNESS_UNRESOLVED(
+        where,
+        wave=2 * spacing,
+        rolloff=rolloff,
+        cutoff=0.5 * rolloff,
+        spacing=0.5 * rolloff / _GOOD_CELLS_PER_WAVE,
+        reason="cutoff-finer",
+    )
 
 
 @scene_check
 def few_cells_per_correlation_length(facts: Facts) -> Iterator[Note]:
     """Between samples further apart than a third of the correlation length a surface is noise: its slope on the grid is
-    that of the grid, and asperities are single cells."""
+    that of the grid, and asperities are single cells. A self-affine surface is looked at by its shortest wave alone
+    (`few_cells_per_wave`): waves of 8 cells are resolved, whose correlation length, 0.28 of the wave, is 2.2 cells."""
 
     def of_lengths(surface: RoughSurface) -> list[float]:
         return [d / length for d, length in zip(surface.grid.spacing, surface.correlation_lengths, strict=True)]
 
-    for inverse, case, surface in facts.worst_surfaces(lambda s: max(of_lengths(s))):
+    for inverse, case, surface in facts.worst_surfaces(lambda s: math.nan if s.self_affine else max(of_lengths(s))):
         cells, length = 1 / inverse, surface.correlation_lengths[of_lengths(surface).index(inverse)]
         wave = surface.shortest_wave
         if cells < _CELLS_PER_WAVE and (wave is None or wave >= _CELLS_PER_WAVE * max(surface.grid.spacing)):

@@ -63,6 +63,11 @@ class RoughSurface:
         return self.table.cutoff_wavelength if isinstance(self.table, GeneratedSurface) else None
 
     @property
+    def self_affine(self) -> bool:
+        """Return True for a generated surface with a self-affine power spectrum."""
+        return isinstance(self.table, GeneratedSurface) and self.table.hurst is not None
+
+    @property
     def correlation_lengths(self) -> tuple[float, float]:
         """Along x and y [m]: what the scene asks of an elongated surface, else that of the heights along both."""
         if isinstance(self.table, GeneratedSurface) and self.table.elongation is not None:
