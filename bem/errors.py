@@ -6,6 +6,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from enum import StrEnum
 
+from bem.quantities import prefixed
+
 
 class Status(StrEnum):
     """Outcome of an iterative solver; `message` says what it means and what to do."""
@@ -40,12 +42,14 @@ class BemError(Exception):
 
 
 class InputError(BemError, ValueError):
-    """An argument, scene or file that cannot be used. The message names it, its value and what is allowed."""
+    """An argument, scene or file that cannot be used. The message names it, its value and what is allowed; its numbers
+    have prefixed units."""
 
     exit_code = 2
 
     def __init__(self, message: str | Sequence[str]) -> None:
-        self.messages: tuple[str, ...] = (message,) if isinstance(message, str) else tuple(message)
+        given = (message,) if isinstance(message, str) else tuple(message)
+        self.messages: tuple[str, ...] = tuple(map(prefixed, given))
         super().__init__("\n".join(self.messages))
 
 

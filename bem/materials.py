@@ -13,6 +13,7 @@ from typing import Any
 
 from bem.arguments import did_you_mean, is_finite, is_positive
 from bem.errors import InputError
+from bem.quantities import si
 from bem.relaxation import PronySeries
 from bem.representation import tabled
 from bem.stiffness import Stiffness
@@ -239,8 +240,9 @@ class Layer:
             math.inf if self.material.yield_stress is None else self.material.yield_stress
         ):
             messages.append(
-                f"Layer: residual_stress {self.residual_stress:g} Pa is beyond the yield stress of the layer, "
-                f"{self.material.yield_stress:g} Pa; a layer cannot hold more"
+                f"Layer: residual_stress {si(self.residual_stress, 'Pa')} exceeds the yield stress of the layer, "
+                f"{si(self.material.yield_stress or 0.0, 'Pa')}; give a smaller one, or a higher hardness or yield "
+                "stress"
             )
         if messages:
             raise InputError(messages)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "": 0, "k": 3, "M": 6, "G": 9, "T": 12}
 """Prefixes of units and their powers of ten. Scenes and messages write "um"; axes and tables "µm"."""
@@ -18,6 +19,13 @@ _ROUNDED = 1.00005
 _SIGNS = (("^2", "²"), ("^3", "³"), ("degC", "°C"), ("um", "µm"))
 _BY_POWER = {power: letter for letter, power in PREFIXES.items()}
 _IN_TEXT = range(-9, 10, 3)
+_RAW_NUMBER = re.compile(
+    r"(?<![\w.\"'-])(?P<number>(?P<digits>-?\d+(?:\.\d+)?)e[+-]\d+|-?(?P<small>0\.00\d+)) "
+    r"(?P<unit>Pa s|Pa|m/s|m|N/m|N|s|J|W)(?![\w^*/(\"'])"
+)
+"""Number with a power of ten, or below a hundredth, with an SI unit that takes a prefix."""
+_LISTED = re.compile(r"(?<![\w.])[-\d.]+(?:e[+-]\d+)?(?:,|;| to| and| or| by| x| -) $")
+"""Number without a unit before another one."""
 
 
 def with_prefixes(unit: str, letters: str) -> dict[str, int]:
@@ -59,6 +67,22 @@ def si(value: float, unit: str, digits: int = 3) -> str:
             number = f"{shown:.{digits}g}" if abs(shown) < 10**digits else f"{shown:.0f}"
             return f"{number} {_BY_POWER[power]}{unit}"
     return f"{value:.{digits}g} {unit}"
+
+
+def prefixed(text: str) -> str:
+    """Return a text with prefixed units of numbers with a power of ten or below 0.01: "-9e+09 Pa" is "-9 GPa".
+
+    Digits stay as many as they are. A text in quotes is a user's own writing and stays, as does the last of several
+    numbers before one unit.
+    """
+
+    def shown(found: re.Match[str]) -> str:
+        if _LISTED.search(text, 0, found.start()):
+            return found[0]
+        digits = sum(letter.isdigit() for letter in (found["digits"] or found["small"]).lstrip("-0."))
+        return si(float(found["number"]), found["unit"], max(digits, 3))
+
+    return _RAW_NUMBER.sub(shown, text)
 
 
 def counted(number: int, noun: str) -> str:

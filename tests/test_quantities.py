@@ -2,7 +2,8 @@
 
 import pytest
 
-from bem.quantities import plain_digits, prefix_for, si, with_prefixes, with_signs, with_unit
+from bem.errors import InputError
+from bem.quantities import plain_digits, prefix_for, prefixed, si, with_prefixes, with_signs, with_unit
 
 pytestmark = pytest.mark.internal
 
@@ -44,6 +45,23 @@ def test_the_largest_value_decides_the_prefix(largest, unit, factor, shown):
 )
 def test_a_text_has_a_prefix_from_nano_to_giga(value, unit, text):
     assert si(value, unit) == text
+
+
+@pytest.mark.parametrize(
+    ("raw", "text"),
+    [
+        ("stress -9e+09 Pa, beyond 8.21429e+09 Pa", "stress -9 GPa, beyond 8.21429 GPa"),
+        ("at most 1.05e-07 m; a speed of 5e-05 m/s", "at most 105 nm; a speed of 50 um/s"),
+        ("a width of 0.00025 m, a length of 0.001207 m", "a width of 250 um, a length of 1.207 mm"),
+        ("between 1e-06 and 2e-06 m", "between 1e-06 and 2e-06 m"),
+        ('"1e-9 m" is no load; 1e-15 m^2/N and 2e-05 Pa*s', '"1e-9 m" is no load; 1e-15 m^2/N and 2e-05 Pa*s'),
+        ("a spacing of 0.5 m holds 1e+06 cells", "a spacing of 0.5 m holds 1e+06 cells"),
+    ],
+)
+def test_numbers_of_refusals_have_prefixed_units(raw, text):
+    """Of several numbers before one unit none is changed, or they would differ in their units."""
+    assert prefixed(raw) == text
+    assert InputError(raw).messages == (text,)
 
 
 def test_units_without_prefixes_are_written_as_they_are():

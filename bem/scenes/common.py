@@ -13,6 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from bem.errors import InputError
 from bem.materials import CATALOGUE, Body, Layer, Material
+from bem.quantities import si
 from bem.reference_solutions.hertz import smooth_load
 from bem.relaxation import PronySeries
 from bem.scenes.asked import AskedAccuracy, AskedUncertainty
@@ -367,8 +368,9 @@ class LayerScene(Table):
         strength = self.material.build().yield_stress
         if strength is not None and abs(self.residual_stress) >= strength:
             raise problem(
-                f"residual_stress {self.residual_stress:g} Pa, beyond the yield stress of the layer, {strength:g} Pa",
-                "a smaller one, or the yield stress or hardness of a layer that holds it",
+                f"residual_stress {si(self.residual_stress, 'Pa')} exceeds the yield stress of the layer, "
+                f"{si(strength, 'Pa')}",
+                "a smaller one, or a higher hardness or yield stress",
             )
         return self
 

@@ -20,7 +20,7 @@ from bem.arguments import did_you_mean
 from bem.errors import InputError
 from bem.scenes.paths import parse_key
 from bem.scenes.units import Dimension
-from bem.scenes.walk import own_keys
+from bem.scenes.walk import Key, own_keys
 
 _NUMBER = Dimension("", "a number", "0.01")
 _HARDNESSES = ("lower.material.hardness", "upper.material.hardness")
@@ -76,6 +76,11 @@ def deviation(scene: BaseModel, key: str, given: str | float, unit: str) -> floa
             f"decimals, such as contact.load{hint}"
         )
     text = str(given).strip()
+    if text.endswith("%") and not any(numbers):
+        raise InputError(
+            f'uncertain."{key}" = {given}: the value is 0, so a share of it is none; allowed: an absolute '
+            f'deviation, such as "{_example_at(scene, key)}"'
+        )
     try:
         if text.endswith("%"):
             found = _NUMBER.parse(text) * max(map(abs, numbers))
@@ -109,15 +114,30 @@ def deviations(scene: Any) -> dict[str, float]:
 
 def _unit_at(scene: BaseModel, key: str) -> str:
     """Return the SI unit of the value at a key, "" for none."""
+    found = _key_at(scene, key)
+    return "" if found is None else found.unit
+
+
+def _example_at(scene: BaseModel, key: str) -> str:
+    """Return a tenth of a key's typical value as an example of a deviation, such as "0.2 GPa"."""
+    found = _key_at(scene, key)
+    assert found is not None
+    assert found.dimension is not None
+    number, _, unit = str((found.field.examples or [found.dimension.example])[0]).partition(" ")
+    return f"{0.1 * abs(float(number)):g} {unit}".strip()
+
+
+def _key_at(scene: BaseModel, key: str) -> Key | None:
+    """Return the last key of a dotted key; None if there is none."""
     place: Any = scene
-    unit = ""
+    found: Key | None = None
     for part in parse_key(key) or ():
         if isinstance(part, int):
             place = place[part] if isinstance(place, list | tuple) and part < len(place) else None
         elif isinstance(place, BaseModel):
-            unit = next((one.unit for one in own_keys(type(place)) if one.name == part), "")
+            found = next((one for one in own_keys(type(place)) if one.name == part), None)
             place = getattr(place, part, None)
-    return unit
+    return found
 
 
 def _numbers(value: Any) -> list[float]:

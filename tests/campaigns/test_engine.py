@@ -245,7 +245,7 @@ def test_every_mistake_of_the_cases_is_said_once():
     with pytest.raises(InputError) as caught:
         plan(campaign_of(KIND.resolve(scene)))
     assert len(caught.value.messages) == 2
-    assert "1e+06 N" in caught.value.messages[0]
+    assert "1 MN" in caught.value.messages[0]
 
 
 class Exploding:

@@ -103,5 +103,5 @@ def test_contacts_of_another_film_are_refused():
     class Sample:
         thickness = 1e-9
 
-    with pytest.raises(InputError, match="known: a contact under 1e-09 m of film where 0 m is"):
+    with pytest.raises(InputError, match="known: a contact under 1 nm of film where 0 m is"):
         grow_tribofilm(np.array([0.0, 1.0]), None, wear_coefficient=1e-3, known=[Sample()])

@@ -908,7 +908,7 @@ def test_a_written_film_of_a_thin_wall_says_its_modulus_and_no_caution_on_hardne
 
 @pytest.mark.parametrize(
     ("key", "value", "words"),
-    [("clearance", 80, "80 m"), ("wall", 1e-4, "0.0001 m"), ("permitted_wear", 5, "5 m")],
+    [("clearance", 80, "80 m"), ("wall", 1e-4, "100 um"), ("permitted_wear", 5, "5 m")],
 )
 def test_a_length_without_unit_that_does_not_fit_is_said_to_be_in_m(key, value, words):
     with pytest.raises(InputError, match=f"{key} = {value:g} has no unit and is read as {words}"):

@@ -98,7 +98,7 @@ def test_a_cell_of_the_roughness_may_repeat_under_a_ball():
     [
         ({"sharing": {"oil_volume": "patch"}}, "oil_volume"),
         ({"sharing": {"oil_volume": "loaded", "models": ["capped", "uncoupled"]}}, "uncoupled asperities"),
-        ({"grid": CELL | {"lengths": "150 um"}}, "cell that repeats is 0.00015 m long"),
+        ({"grid": CELL | {"lengths": "150 um"}}, "cell that repeats is 150 um long"),
         ({"film": {"start": "-1 mm", "end": "1 mm"}}, "film.start"),
     ],
 )

@@ -57,6 +57,7 @@ def test_of_a_list_all_entries_change_alike():
         ({"shape.kind": "5 %"}, "no number is set there"),
         ({"contact.load": "5 nm"}, "0.1 N"),
         ({"contact.load": "0 %"}, "not a positive standard deviation"),
+        ({"contact.friction": "20 %"}, "the value is 0, so a share of it is none; allowed: an absolute deviation"),
         ({"contact.load": "-5 %"}, "not a positive standard deviation"),
     ],
 )
@@ -64,6 +65,13 @@ def test_keys_and_deviations_that_are_refused(uncertain, words):
     with pytest.raises(InputError, match=words) as raised:
         plan_scene(scene(**uncertain))
     assert len(raised.value.messages) == 1
+
+
+def test_a_share_of_a_residual_stress_that_is_not_set_is_refused_with_an_example_of_a_deviation():
+    key = "lower.layer.residual_stress"
+    coated = ("coated-sphere", [f'uncertain={{"{key}"="20 %"}}'])
+    with pytest.raises(InputError, match=r'the value is 0, so a share of it is none; .* such as "0\.2 GPa"'):
+        plan_scene(*coated)
 
 
 @pytest.mark.parametrize("uncertain", [{}, {"contact.load": True}, "5 %"])

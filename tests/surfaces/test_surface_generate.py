@@ -259,7 +259,7 @@ GOOD = {"rms_height": 1e-7, "seed": 1, "correlation_length": 8e-7}
         ({"correlation_length": None, "hurst": 0.8, "rolloff_wavelength": 1e-8}, "rolloff_wavelength"),
         (
             {"correlation_length": None, "hurst": 0.8, "rolloff_wavelength": 1e-6, "cutoff_wavelength": 2e-6},
-            "rolloff_wavelength \\(1e-06",
+            "rolloff_wavelength \\(1 um",
         ),
         ({"kurtosis": float("inf")}, "finite"),
     ],

@@ -115,13 +115,13 @@ def test_a_groove_is_a_parabola_as_deep_as_it_is():
     [
         (feed_marks, {"feed": 1e-3}, "0 < feed <= nose_radius"),
         (feed_marks, {"feed": 5e-6}, "shorter than 4 cells"),
-        (feed_marks, {"feed": 1.3e-4}, "is 3.846 feeds; take 0.00039 m or 0.00052 m, or a feed of 0.00016667 m"),
-        (feed_marks, {"feed": 6e-4}, "is 0.8333 feeds; take 0.0006 m, or a feed of 0.0005 m"),
+        (feed_marks, {"feed": 1.3e-4}, "is 3.846 feeds; take 390 um or 520 um, or a feed of 166.67 um"),
+        (feed_marks, {"feed": 6e-4}, "is 0.8333 feeds; take 600 um, or a feed of 500 um"),
         (cross_hatch, {"angle": 4.0}, "between 0 and pi"),
         (cross_hatch, {"width": 2e-4}, "no groove wider"),
         (cross_hatch, {"depth": -1e-6}, "positive"),
         (cross_hatch, {"width": 5e-6}, "less than 4 cells"),
-        (cross_hatch, {"angle": math.radians(45)}, "53.13 deg is the nearest that does; 0.0005 m and 0.001207 m do"),
+        (cross_hatch, {"angle": math.radians(45)}, "53.13 deg is the nearest that does; 500 um and 1.207 mm do"),
     ],
 )
 def test_mistakes_are_said(marks, change, message):

@@ -435,10 +435,10 @@ def test_a_contact_that_ends_without_numbers_is_not_blamed_on_its_stress():
 @pytest.mark.parametrize(
     ("depths", "layer", "remedy", "mended"),
     [
-        ((0, 50, 104), None, "below 1.05e-07 m", (0, 50, 106)),
-        ((0, 30, 102), None, "below 1.03e-07 m", (0, 30, 102, 200)),
-        ((95, 190, 285), 100, "at most 5e-08 m", (50, 145, 240)),
-        ((95, 190, 285), 90, "at most 4.5e-08 m", (45, 135, 225)),
+        ((0, 50, 104), None, "below 105 nm", (0, 50, 106)),
+        ((0, 30, 102), None, "below 103 nm", (0, 30, 102, 200)),
+        ((95, 190, 285), 100, "at most 50 nm", (50, 145, 240)),
+        ((95, 190, 285), 90, "at most 45 nm", (45, 135, 225)),
     ],
 )
 def test_a_single_depth_is_refused_before_the_contact_and_the_remedy_helps(criterion, depths, layer, remedy, mended):

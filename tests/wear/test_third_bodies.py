@@ -173,7 +173,7 @@ def test_they_roll_as_far_as_a_cycle_stands_for_and_not_out_of_their_grooves():
     table = {"diameter": D, "number_per_area": 1e10, "removed": 0.1}
     near, far = (loop(distance, third_bodies=table).cycles["volume"][0] for distance in (1e-8, 2e-8))
     assert far == pytest.approx(2 * near, rel=1e-9)
-    with pytest.raises(InputError, match=r"cut deeper than they lie; allowed: 0\.005 m"):
+    with pytest.raises(InputError, match=r"cut deeper than they lie; allowed: 5 mm"):
         loop(6e-3, third_bodies=table)
 
 
