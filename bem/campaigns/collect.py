@@ -15,6 +15,7 @@ from bem.campaigns.refine import told_in_summary
 from bem.errors import Status
 from bem.notes import Note
 from bem.notes.accuracy import BARS_PARTIAL, NoBar, no_error_bar
+from bem.notes.figure_names import figure_name
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Outcome, Variable
@@ -185,7 +186,7 @@ def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[
     figures that are zero everywhere, as the sizes of no pieces."""
     record = campaign.kind.record
     told = {
-        name: " ".join((item.name or name).split("_"))
+        name: item.name or name
         for name, item in described(record).items()
         if isinstance(item, Figure) and any(getattr(one, name) is not None for one in records if one is not None)
     }
@@ -193,13 +194,27 @@ def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[
     for name, why in _never_barred(campaign).items():
         if name in told and any(_something(getattr(one, name)) for one in records if one is not None):
             reasons.setdefault(why, []).append(told[name])
-    found = [no_error_bar(names, NoBar.OF_KIND, why=_sentence(why, names)) for why, names in reasons.items()]
+    found = [
+        no_error_bar(named_with_mean(names, campaign.scene), NoBar.OF_KIND, why=_sentence(why, names))
+        for why, names in reasons.items()
+    ]
     repeated = next((len(axis) for axis in campaign.axes if axis.name == REPETITION), 1)
     if record.scatters and repeated > 1:
-        judged = [told[name] for name in record.scatters if name in told and name in _barred(records)]
+        judged = [figure_name(told[name]) for name in record.scatters if name in told and name in _barred(records)]
         but = f" (but for {', '.join(judged)})" if judged else ""
         found.append(BARS_PARTIAL(repetitions=repeated, but=but, reason="scatter"))
     return found
+
+
+def named_with_mean(names: Sequence[str], scene: Any) -> list[str]:
+    """Return figures by name, the reported size of particles by that of its mean, which a table has, too."""
+    report = getattr(getattr(scene, "sizes", None), "report", None)
+    return [
+        name
+        if report is None
+        else re.sub(r"^particle_(equivalent_radius|length|width|thickness)$", rf"{report}_mean_\1", name)
+        for name in names
+    ]
 
 
 def _figures(

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from enum import StrEnum
 from typing import Any
 
+from bem.notes.figure_names import figure_name
 from bem.notes.note import Level, Note, define
 
 CAUTION, INFO = Level.CAUTION, Level.INFO
@@ -107,7 +108,7 @@ NO_ERROR_BAR = define(
         ),
         NoBar.REPEATED_CELL: "The error of a cell that repeats is not known; compare with half the spacing.",
         NoBar.FEW_PARTICLES: "There are fewer than two particles.",
-        NoBar.SCATTERED_PARTICLES: "{count} particles leave more than {most:.0f} times the figure open.",
+        NoBar.SCATTERED_PARTICLES: "{count} particles: uncertain by more than {most:.0f} times the value.",
         NoBar.NO_COARSE_FILM: "On half as many cells there is no film to compare with.",
         NoBar.FEW_FILM_CELLS: "Half as many cells are too few to compare with: take {nx} x {ny} cells.",
         NoBar.SINGLE_LOOP: (
@@ -185,9 +186,8 @@ _WIDER_CAUSES = {NoBar.STRESS_OF_SHARP: NoBar.SHARP_PRESSURE}
 
 
 def named(names: Iterable[str]) -> list[str]:
-    """Return the names of figures in words."""
-    known = {name: " ".join(name.split("_")).replace("von mises", "von Mises") for name in names}
-    return [_OTHER_NAMES.get(name, words) for name, words in known.items()]
+    """Return the names of figures in words, as tables have them."""
+    return list(dict.fromkeys(_OTHER_NAMES.get(name) or figure_name(name) for name in names))
 
 
 _OTHER_NAMES = {

@@ -72,8 +72,12 @@ class _Formatter(string.Formatter):
             low, high = (self.format_field(end, format_spec) for end in value)
             return low if low == high else f"{low} to {high}"
         if isinstance(value, list | tuple):
-            if format_spec == "few" and len(value) > _FEW:
-                return f"{', '.join(value[: _FEW - 1])} and {len(value) - _FEW + 1} more"
+            if format_spec == "few":
+                between = "; " if any("," in str(item) for item in value) else ", "
+                if len(value) > _FEW:
+                    return f"{between.join(value[: _FEW - 1])} and {len(value) - _FEW + 1} more"
+                if between == "; ":
+                    return between.join(map(str, value))
             return joined([self.format_field(item, "" if format_spec == "few" else format_spec) for item in value])
         if format_spec.startswith("si "):
             return si(float(value), format_spec.removeprefix("si "))

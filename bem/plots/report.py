@@ -41,6 +41,7 @@ from bem.plots.tables import (
     window_of,
     with_scatter,
     within,
+    without_bars_of_loop,
     without_particles,
 )
 from bem.results.atomic import write_text
@@ -158,7 +159,8 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     if all(limited_by_hardness(name, summary)):
         return text, f"{shown} {HARDNESS}"
     if not isinstance(error, float) or not isinstance(value, int | float) or isinstance(value, bool):
-        none = f"{name}_error" in summary and error is None and value is not None
+        none = (f"{name}_error" in summary and error is None) or name in without_bars_of_loop(summary)
+        none = none and value is not None
         return text, f"{shown} {NO_BAR}" if none else shown
     if error > abs(value):
         return text, _in_unit_of_error(name, value, error)

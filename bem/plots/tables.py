@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from bem.notes.figure_names import figure_name
 from bem.physical_constants import ZERO_CELSIUS
 from bem.plots.labels import label, prefix
 from bem.quantities import plain_digits, with_signs
-from bem.scenes.records import INPUTS, OIL, TELLING, region_words, scatter_key, unit_of
+from bem.scenes.records import INPUTS, OIL, TELLING, Figure, described, region_words, scatter_key, unit_of
 
 _SPREAD, _ERROR = "_spread", "_error"
 _TELLING = tuple(f"{name}_{unit}" for name, unit in TELLING.items())
@@ -45,7 +46,7 @@ def name_and_unit(name: str) -> tuple[str, str]:
     """`mean_contact_pressure_Pa` -> `mean contact pressure`, `Pa`."""
     words, unit = unit_of(name)
     unit = _OWN_UNITS.get(words, unit)
-    return _LABELS.get(words, " ".join(words.split("_")).replace("von mises", "von Mises")), with_signs(unit)
+    return figure_name(words), with_signs(unit)
 
 
 def reported_mean(name: str, summary: Mapping[str, Any]) -> str:
@@ -80,55 +81,6 @@ _WINDOWS = {
     "criterion_wear_rate_mm3_Nm": "settled",
 }
 """Figures that are means over the last cycles, by the window of the run that they are taken over."""
-_LABELS = {
-    "friction_first_turn": "friction coefficient, mean of the first whole turn",
-    "friction_last_turn": "friction coefficient, mean of the last whole turn",
-    "lowest_load": "pull-off force (lowest load)",
-    "jkr_lowest_load": "pull-off force by JKR (soft spheres)",
-    "dmt_lowest_load": "pull-off force by DMT (stiff spheres)",
-    "tabor_parameter": "Tabor's parameter",
-    "friction_work": "friction work per distance rolled",
-    "resolved_work": "share of the friction work in its map",
-    "Sq": "Sq of both surfaces",
-    "Sq_initial": "Sq of the worn body's contact region, initial",
-    "Sq_final": "Sq of the worn body's contact region, final",
-    "worn_depth": "worn depth of the contact region",
-    "largest_worn_depth": "worn depth of the deepest place of the surface",
-    "particles_per_cycle": "particles per cycle of one body",
-    "particles_per_distance": "particles per sliding distance, of one body",
-    "particles_per_volume": "particles per worn volume",
-    "number_mean_radius": "particle equivalent radius, mean by number",
-    "volume_mean_radius": "particle equivalent radius, mean by volume",
-    "scattering_mean_radius": "particle equivalent radius, by light scattering",
-    "particles_first_cycle": "particles in the first cycle, of one body",
-    "particles_last_cycles": "particles in all of the last cycles, of one body",
-    "criterion_wear_rate": "wear volume over load and sliding distance",
-    "residual": "solver residual (relative)",
-    "lower_Sq": "Sq of the lower surface",
-    "upper_Sq": "Sq of the upper surface",
-    "lower_Sq_initial": "Sq of the lower surface, initial",
-    "lower_Sq_final": "Sq of the lower surface, final",
-    "lower_worn_depth": "worn depth of the lower surface",
-    "upper_Sq_initial": "Sq of the upper surface, initial",
-    "upper_Sq_final": "Sq of the upper surface, final",
-    "upper_worn_depth": "worn depth of the upper surface",
-    "combined_Sq": "Sq of both surfaces",
-    "friction": "friction coefficient",
-    "contact_temperature": "surfaces in contact, mean temperature",
-    "flash_temperature": "surfaces in contact, highest temperature",
-    "traction_coefficient": "friction coefficient",
-    "sliding_traction": "sliding friction coefficient",
-    "contact_share": "asperity load share",
-    "contact_load": "asperity load",
-    "minimum_thickness": "minimum film thickness",
-    "central_thickness": "central film thickness",
-    "minimum_film": "minimum film thickness (under the film's load)",
-    "minimum_film_whole": "minimum film thickness (if the film carried the whole load)",
-    "lambda_ratio": "lambda ratio (if the film carried the whole load)",
-    "lambda_ratio_initial": "lambda ratio (if the film carried the whole load), initial",
-    "lambda_ratio_mixed": "lambda ratio (under the film's load)",
-}
-"""Labels that say the region or the definition of a figure, by its name without the unit."""
 _OWN_UNITS = {"friction_work": "J/m"}
 """Units that say more than those of the keys: newtons of work per distance are joules per metre."""
 
@@ -706,6 +658,17 @@ def is_size_of_no_particles(name: str, value: Any) -> bool:
 def is_of_particles(name: str) -> bool:
     """Return True for a mean size or a number of particles."""
     return _SIZES.match(name) is not None or name.startswith(("particles_", "scattering_mean_"))
+
+
+def without_bars_of_loop(summary: Mapping[str, Any]) -> frozenset[str]:
+    """Return the figures that have no error bar because they are of a single wear loop, as a note of the run says."""
+    if summary.get("kind") not in ("wear", "running-in") or "Sq_final_nm_error" in summary:
+        return frozenset()
+    from bem.scenes.kind import get_kind
+
+    record = get_kind(summary["kind"]).record
+    known = described(record)
+    return frozenset(item.key(name) for name in record.scatters if isinstance(item := known[name], Figure))
 
 
 def without_particles(summary: Mapping[str, Any]) -> bool:

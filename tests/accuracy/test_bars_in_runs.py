@@ -9,9 +9,9 @@ from bem.campaigns.collect import _figures, outcome_of
 from bem.cli._terminal import print_numbers
 from bem.kinds.running_in.record import RunningInRecord
 from bem.kinds.wear.record import WearRecord
-from bem.notes.accuracy import NoBar, no_error_bar
+from bem.notes.accuracy import NoBar, named, no_error_bar
 from bem.plots.report import with_error
-from bem.plots.tables import origin_table
+from bem.plots.tables import name_and_unit, origin_table
 from bem.runs import run_scene
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import get_kind
@@ -217,3 +217,30 @@ def test_the_run_says_which_figures_follow_the_mesh_and_what_its_bars_are(tmp_pa
     assert run.summary["number_mean_equivalent_radius_nm_error"] is None
     assert run.summary["Sq_final_nm_error"] == pytest.approx(run.summary["Sq_final_nm_spread"] / np.sqrt(2))
     assert "They follow the mesh" in (tmp_path / "run" / "report.html").read_text()
+
+
+def test_notes_on_missing_bars_name_figures_as_tables_do():
+    """ "number mean radius" and "volume" were names of no row."""
+    names = {"number_mean_radius": "nm", "area_mean_length": "nm", "number_above_mean_width": "nm", "friction": ""}
+    rows = [name_and_unit(f"{name}_{unit}" if unit else name)[0] for name, unit in names.items()]
+    assert named(names) == rows
+    assert rows[:2] == ["particle equivalent radius, mean by number", "particle length, mean by area"]
+    note = no_error_bar(list(names)[:2], NoBar.FEW_PARTICLES)
+    assert note.headline == f"No error bars for {rows[0]}; {rows[1]}"
+
+
+def test_a_mean_volume_without_a_bar_is_said_of_the_numbers_that_follow_from_it():
+    from bem.kinds.particles.errors import _of_rows
+
+    note = no_error_bar(["volume"], NoBar.SCATTERED_PARTICLES, count=6, most=3.0)
+    (said,) = _of_rows((note,), ("particles_per_mm_and_N",))
+    assert said.startswith("No error bars for particles per mm and N. 6 particles: uncertain by more than 3 times")
+    assert not list(_of_rows((note,), ()))
+
+
+@pytest.mark.parametrize("kind", ["wear", "running-in"])
+def test_rows_of_a_single_loop_say_that_they_have_no_bar(kind):
+    loop = {"kind": kind, "Sq_final_nm": 90.0, "worn_depth_nm": 3.0, "cycles": 4}
+    barless = {name: with_error(name, loop)[1].endswith("(no error bar)") for name in loop if name != "kind"}
+    assert barless == {"Sq_final_nm": True, "worn_depth_nm": kind == "running-in", "cycles": False}
+    assert with_error("Sq_final_nm", loop | {"Sq_final_nm_error": 1.0})[1] == "90 ± 1 nm"

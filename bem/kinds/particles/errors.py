@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,8 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.kinds.particles.scene import ParticlesScene
+from bem.notes import Note
+from bem.notes.accuracy import NO_ERROR_BAR, named
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
@@ -30,7 +33,19 @@ def bars_of(
     volume = float(np.mean([particle.volume for particle in found])) if archard else 0.0
     for name in _NUMBERS if archard else ():
         bars |= bars.renamed({"volume": name}, partial(_of_number, archard[name], volume))
-    return bars
+    return replace(bars, notes=tuple(_of_rows(bars.notes, _NUMBERS if archard else ())))
+
+
+def _of_rows(notes: Iterable[Note], numbers: Sequence[str]) -> Iterator[Note]:
+    """Return the notes, those on the mean volume, which has no row, as notes on the figures that follow from it."""
+    for note in notes:
+        figures = note.values.get("figures", [])
+        if "volume" not in figures:
+            yield note
+            continue
+        rows = [name for name in figures if name != "volume"] + named(numbers)
+        if rows:
+            yield NO_ERROR_BAR(**{**note.values, "figures": rows})
 
 
 def _of_number(number: float, volume: float, error: float) -> float:

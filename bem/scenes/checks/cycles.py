@@ -519,7 +519,7 @@ def loop_without_error_bars(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """One loop on one grid says nothing of its errors: no finer cells, no other surfaces to compare it with."""
     told = outcome.summary
     if facts.of_kind("wear", "running-in") and "Sq_final_nm" in told and "Sq_final_nm_error" not in told:
-        yield no_error_bar(["worn surfaces"], NoBar.SINGLE_LOOP)
+        yield no_error_bar(["friction, wear and worn surfaces"], NoBar.SINGLE_LOOP)
 
 
 def _of(number: int, all_: int) -> str:
