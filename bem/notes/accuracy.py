@@ -187,7 +187,9 @@ _WIDER_CAUSES = {NoBar.STRESS_OF_SHARP: NoBar.SHARP_PRESSURE}
 
 def named(names: Iterable[str]) -> list[str]:
     """Return the names of figures in words, as tables have them."""
-    return list(dict.fromkeys(_OTHER_NAMES.get(name) or figure_name(name) for name in names))
+    keys = list(names)
+    rows = [name for name in keys if f"lower_{name}" not in keys]  # tables have these under the body's name alone
+    return list(dict.fromkeys(_OTHER_NAMES.get(name) or figure_name(name) for name in rows))
 
 
 _OTHER_NAMES = {

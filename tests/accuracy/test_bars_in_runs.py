@@ -225,6 +225,8 @@ def test_notes_on_missing_bars_name_figures_as_tables_do():
     rows = [name_and_unit(f"{name}_{unit}" if unit else name)[0] for name, unit in names.items()]
     assert named(names) == rows
     assert rows[:2] == ["particle equivalent radius, mean by number", "particle length, mean by area"]
+    # of a life, whose surfaces have no contact region
+    assert named(["Sq_final", "lower_Sq_final"]) == ["Sq of the lower surface, final"]
     note = no_error_bar(list(names)[:2], NoBar.FEW_PARTICLES)
     assert note.headline == f"No error bars for {rows[0]}; {rows[1]}"
 
