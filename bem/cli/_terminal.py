@@ -413,7 +413,7 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str], lines: Ma
 
     lines : what is shown of notes outside the model, by their headlines; the headline alone where it is not given.
     """
-    from bem.notes.accuracy import NO_ERROR_BAR
+    from bem.notes.accuracy import ERROR_BARS_LOST, NO_ERROR_BAR
     from bem.plots.report import NO_BAR, status_words, summary_rows
     from bem.plots.tables import input_share_tables, is_list, place_tables
 
@@ -425,7 +425,8 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str], lines: Ma
         rows.append(("remarks", f"{remarks}, in the report and in summary.json"))
     rows.append(("time", f"{summary['wall_time_s']:.1f} s"))
     table(("figure", "value"), rows, title=f"{summary['scene']} ({summary['kind']})")
-    if any(value.endswith(NO_BAR) for _, value in rows):
+    lost = any(note["code"] == ERROR_BARS_LOST.code for note in of_summary(summary))  # says why of all of them
+    if not lost and any(value.endswith(NO_BAR) for _, value in rows):
         for note in of_summary(summary):
             if note["code"] == NO_ERROR_BAR.code:
                 print_text(note["text"])

@@ -429,7 +429,7 @@ def all_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...]:
     if any(one.converged and one.film_ratio is not None for one in solved):
         touching = element.touching_note(_ratios_by_films(element, solved))
         own = (*without(own, SURFACES_TOUCH), *([] if touching is None else [touching]))
-    found = (*own, *answer_notes(element, solved), *film_notes(solved))
+    found = (*own, *answer_notes(element, solved), *film_notes(solved, element.found.marks))
     if has_code(found, BUSH_FLOATS):
         return without(found, BUSH_CONFORMS, BUSH_LEAKS)
     return without(found, BUSH_LEAKS) if has_code(found, BUSH_BOUNDS) else found

@@ -196,14 +196,14 @@ def columns(
 def notes_of_cases(by_case: Sequence[Sequence[Note]]) -> list[Note]:
     """Return the notes of several cases, each once with its rows.
 
-    How many positions of a row a note is of is left out where it differs between the rows, and so are the names of the
+    Which positions of a row a note is of is left out where it differs between the rows, and so are the names of the
     places where contacts are wide for their bodies.
 
-    by_case : notes of each case, those of its films with the number of positions as `bem.elements.running.notes`.
+    by_case : notes of each case, those of its films with their positions as `bem.elements.running.notes`.
     """
 
     def anywhere(note: Note) -> Note:
-        counted = note.where.endswith(" positions")
+        counted = re.match(r"at \d+ of \d+ positions", note.where)
         return Note(note.code, note.level, note.values, "", note.texts) if counted else note
 
     wide = [note for note in chain.from_iterable(by_case) if _is_of_wide_places(note)]

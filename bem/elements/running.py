@@ -8,13 +8,13 @@ point of body i sees all of W in the time that it takes to cross at u_i.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from bem.elements.bush_answer import journal_beside
 from bem.elements.contact import ElementContact
-from bem.elements.element import Element
+from bem.elements.element import AT_MARK, Element
 from bem.elements.plain_bush import PlainBushModel
 from bem.elements.scuffing import flash_temperature
 from bem.errors import InputError, Status
@@ -338,10 +338,24 @@ def columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]
     return films | {f"wear_per_pass_{body} [m]": [number(both[body - 1]) for both in worn] for body in (1, 2)}
 
 
-def notes(runs: Sequence[Running]) -> tuple[Note, ...]:
-    """Return the notes of the films that converged, each once, with the number of places it applies to.
+def notes(runs: Sequence[Running], marks: Mapping[str, float] | None = None) -> tuple[Note, ...]:
+    """Return the notes of the films that converged, each once, with the places it applies to: their number and names.
 
     Without notes on the pressure spike: no figure of an element is the film's highest pressure.
+
+    marks : letters of places along the path [m], which stand for the names of contacts there.
     """
+    letters = {place: letter for letter, place in (marks or {}).items()}
+
+    def name(index: int) -> str:
+        contact = runs[index].contact
+        return next((one for place, one in letters.items() if abs(place - contact.place) < AT_MARK), contact.name)
+
+    def words(at: list[int]) -> str:
+        starts = [i for i in at if i - 1 not in at]
+        ends = [i for i in at if i + 1 not in at]
+        spans = [name(a) if a == b else f"{name(a)} to {name(b)}" for a, b in zip(starts, ends, strict=True)]
+        return f"at {len(at)} of {len(runs)} positions ({', '.join(spans)})"
+
     of_runs = [[note for note in one.notes if note.code != FILM_SPIKE.code] if one.converged else () for one in runs]
-    return tuple(merge(of_runs, lambda at: f"at {len(at)} of {len(runs)} positions"))
+    return tuple(merge(of_runs, words))

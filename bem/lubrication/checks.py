@@ -25,6 +25,7 @@ from bem.notes.lubrication import (
     FILM_SPIKE,
     FILM_THICK,
     HEAT_LEFT_OUT,
+    SET_THERMAL,
     SHEAR_BEYOND_MEASURED,
     SHEAR_LIMITED,
     VISCOSITY_EXTRAPOLATED,
@@ -264,7 +265,7 @@ def inlet_heating(case: Case) -> Note | None:
     heating = inlet_heating_factor(case.lubricant.viscosity, OIL_SOFTENING, OIL_CONDUCTIVITY, case.speeds, hertz)
     if heating.factor >= LEAST_INLET_FACTOR * case.reduction:
         return None
-    return HEAT_LEFT_OUT(factor=1 / heating.factor, reason="inlet")
+    return HEAT_LEFT_OUT(factor=1 / heating.factor, reason="inlet", remedy=SET_THERMAL)
 
 
 def film_heating(case: Case) -> Note | None:
@@ -286,7 +287,7 @@ def film_heating(case: Case) -> Note | None:
     flash = 2 * heat * math.sqrt(length / math.pi) / (STEEL_EFFUSIVITY * root)
     if film + flash <= LARGEST_HEATING:
         return None
-    return HEAT_LEFT_OUT(limit=LARGEST_HEATING, rise=film + flash, reason="sliding")
+    return HEAT_LEFT_OUT(limit=LARGEST_HEATING, rise=film + flash, reason="sliding", remedy=SET_THERMAL)
 
 
 def molecular_film(case: Case) -> Note | None:

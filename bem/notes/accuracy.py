@@ -121,9 +121,9 @@ NO_ERROR_BAR = define(
 ERROR_BARS_LOST = define(
     "error-bars-lost",
     CAUTION,
-    "No figure of this result has an error bar.",
-    "The solution on the grid of twice the cell, with which it is compared, did not converge.",
-    "Take cells of half the size, so that the coarser grid has the cells of this one.",
+    "No error bars: the grid of twice the cell did not converge.",
+    "Error bars compare this result with that of a grid of twice the cell.",
+    "Halve the cells: this grid, which converged, is then the coarser one.",
 )
 BARS_PARTIAL = define(
     "error-bars-partial",

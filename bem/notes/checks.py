@@ -189,7 +189,7 @@ PERIODIC_GRID = define(
     "The shape does not suit the periodic grid.",
     reasons={
         "body": Reason(
-            "The grid is periodic along {axis}, so the {shape} repeats every {length:si m}{near}.",
+            "The grid is periodic along {axis}, so the {shape} repeats every {length}{near}.",
             "Set grid.periodic = {single} for a single {shape}.",
             headline="The curved body repeats with the periodic grid.",
         ),
@@ -263,7 +263,7 @@ PATCH_SHORT = define(
     "high_pass.",
     reasons={
         "unknown": "The autocorrelation of the {body} surface does not fall to 1/e within half of the patch.",
-        "few": "The patch is {lengths:.2g} correlation lengths of the {body} surface long.",
+        "few": "The patch is {lengths:.2g} correlation lengths of the {body} surface long{along}.",
     },
 )
 LAYER_MESH = define(
@@ -456,12 +456,12 @@ HARDNESS_DECIDES = define(
             "finer cells a part of the contact may be."
         ),
         "load": Reason(
-            "The load is {ratio:.2g} of the pressure cap (contact.hardness, or that of the softer body) x area of the "
-            "grid. Near one, valleys of rough surfaces carry more than the hardness, which the cap leaves out.",
+            "No cell carries more than the hardness (contact.hardness, or that of the softer body), so that at least "
+            "this share of the grid touches; valleys of rough surfaces would carry more.",
             "Take a smaller load or a larger grid.",
             CAUTION,
             foreseen=True,
-            headline="Most of the patch reaches the hardness, where the model has no strain hardening.",
+            headline="The mean pressure over the grid is {ratio:.2g} of the hardness.",
         ),
         "area": Reason(
             "{share:%} of the patch is in contact; above about half rough valleys resist, which a cap leaves out.",

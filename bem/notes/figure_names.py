@@ -20,6 +20,9 @@ _MEAN_SIZE = re.compile(r"(number|area|volume|number_above)_mean_(equivalent_rad
 FIGURE_NAMES: dict[str, str] = {
     "friction_first_turn": "friction coefficient, mean of the first whole turn",
     "friction_last_turn": "friction coefficient, mean of the last whole turn",
+    "mean_contact_traction": "mean of pressure less attraction in contact",
+    "concentration": "concentration of substrate at the surface of the film",
+    "share_of_lower": "share of the heat that enters the lower body",
     "lowest_load": "pull-off force (lowest load)",
     "jkr_lowest_load": "pull-off force by JKR (soft spheres)",
     "dmt_lowest_load": "pull-off force by DMT (stiff spheres)",

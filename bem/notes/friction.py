@@ -162,6 +162,7 @@ POINT_FILM_SCALED = define(
             "solved, by Hertz' pressure and the fit of Nijenbanning, Venner and Moes: 12 % too thick at 2.5 times that "
             "load, up to 40 % at 6 times; its minimum is not to be used{factors}.",
             "Set more film.cells: a finer mesh solves films under larger loads.",
+            headline="The film is extrapolated in load; its minimum and lambda are unknown.",
         ),
         "layer": Reason(
             "No film of a thin layer of oil was found under so light a load; pressure goes on as Hertz', and the film"

@@ -158,12 +158,14 @@ FILM_SPIKE = define(
     "Its height follows the mesh; film thickness and load do not.",
     "Disregard the highest pressure{remedy}.",
 )
+SET_THERMAL = 'Set thermal = "lumped".'
+"""What to do about heat that is left out where the kind has it."""
 HEAT_LEFT_OUT = define(
     "heat-left-out",
     CAUTION,
-    "Heat matters here, but thermal is off.",
+    "Heat matters here, but the film is solved without.",
     "",
-    'Set thermal = "lumped".',
+    "{remedy}",
     reasons={
         "inlet": (
             "Heat of the inlet would make the film over 10 % thinner: it is too thick by a factor of about "
@@ -310,6 +312,14 @@ LUMPED_HEAT_LIMIT = define(
             "{limit:g} most films were too thin, by up to a third, some 2 % too thick, and friction was 10 to 60 % "
             "off.",
             headline="Quick heat (lumped) errs here: most films are too thin, by up to a third.",
+        ),
+        "fast-slides": Reason(
+            "The thermal loading of the inlet, mu0 beta u^2/k, is {loading:.2g} (mu0 viscosity at ambient pressure, "
+            "beta its relative fall per kelvin, u entrainment speed, k thermal conductivity of the oil), and the "
+            "slide-to-roll ratio {slide:.2g}. At loadings above {limit:g} films were up to a third too thin at a ratio "
+            "of 1, a quarter too thin to a quarter too thick at 1.25 to 1.5, and 1.3 to 2.7 times as thick at 2, where "
+            "the slower surface warms the inlet; friction was 16 % too low to 60 % too high.",
+            headline="Quick heat (lumped) errs here: films too thin or too thick.",
         ),
         "slides": Reason(
             "The slower surface warms the inlet: at a slide-to-roll ratio of 2 flooded films were 1.2 to 2.8 times as "

@@ -20,6 +20,7 @@ from bem.plots.tables import (
     ABOUT_THE_RUN,
     HARDNESS,
     accuracy_tables,
+    extrapolated_minima,
     figure_tables,
     input_share_tables,
     is_counted,
@@ -141,7 +142,8 @@ def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
         return text, shown
     number, *unit = spelled(name, value)[1].split(" ")
     numerical, factor = "±" in shown or " to " in shown, float(number) / value if unit and value else 1.0
-    return text, with_scatter(shown, scatters, numerical=numerical, unit=" ".join(unit), factor=factor)
+    both = with_scatter(shown, scatters, numerical=numerical, unit=" ".join(unit), factor=factor)
+    return text, both if both == shown else both.replace(f"{NO_BAR} ", "(no numerical error bar), ", 1)
 
 
 def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
@@ -154,7 +156,7 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     text += reported_mean(name, summary) + window_of(name, summary)
     if not value and is_of_particles(name) and without_particles(summary):
         return text, NOT_COMPUTED
-    if is_size_of_no_particles(name, value):
+    if is_size_of_no_particles(name, value) or any(extrapolated_minima(name, [value], summary)):
         return text, "-"
     if all(limited_by_hardness(name, summary)):
         return text, f"{shown} {HARDNESS}"

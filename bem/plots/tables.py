@@ -9,7 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from bem.notes import Level
 from bem.notes.figure_names import figure_name
+from bem.notes.friction import POINT_FILM_SCALED
+from bem.notes.note import of_summary
 from bem.physical_constants import ZERO_CELSIUS
 from bem.plots.labels import label, prefix
 from bem.quantities import plain_digits, with_signs
@@ -530,7 +533,7 @@ def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str, colum
     rest = [
         _column(
             name,
-            summary[name],
+            _without_extrapolated(name, summary),
             _beside(name, summary),
             bars=f"{name}{_ERROR}" in summary,
             scatters=scatters_of(name, summary),
@@ -675,6 +678,34 @@ def without_particles(summary: Mapping[str, Any]) -> bool:
     """Return True for a run whose wear law gives no particles: their number is there, and has no value."""
     number = summary.get("particles_per_cycle", 0.0)
     return all(one is None for one in (number if isinstance(number, list) else [number]))
+
+
+def extrapolated_minima(name: str, values: Sequence[Any], summary: Mapping[str, Any]) -> list[bool]:
+    """Return for each value of a figure whether it is the minimum, or the lambda ratio, of a film extrapolated in load.
+
+    Such a minimum is not to be used, and has no error bar: where bars were made, those of the other cases tell.
+    """
+    scaled = any(
+        note["code"] == POINT_FILM_SCALED.code and note["level"] == Level.CAUTION for note in of_summary(summary)
+    )
+    if not scaled or not name.startswith(_MINIMA):
+        return [False] * len(values)
+    errors = summary.get(f"{name}{_ERROR}")
+    errors = errors if isinstance(errors, list) else [errors]
+    if len(errors) != len(values):
+        return [True] * len(values)
+    return [error is None for error in errors]
+
+
+def _without_extrapolated(name: str, summary: Mapping[str, Any]) -> list[Any]:
+    """Return the values of a list without those of `extrapolated_minima`."""
+    values = summary[name]
+    left_out = extrapolated_minima(name, values, summary)
+    return [None if out else value for out, value in zip(left_out, values, strict=True)]
+
+
+_MINIMA = ("minimum_film", "lambda_ratio")
+"""Beginnings of the names of figures that are minima of a film."""
 
 
 def _cell(value: Any, factor: float = 1.0) -> str:

@@ -40,6 +40,7 @@ def test_bars_cover_the_difference_to_four_times_the_cells(make):
         path = follow_path(gap, operator, law, loads=loads)
         assert path.status is Status.CONVERGED
         found[cells] = figures_of(path.last.contact, grid.area)
+        found[cells]["mean_contact_traction"] = mean_contact_traction(path.last, law)
         if cells == 64:
             case = ContactCase(operator, gap, path.last.contact, load=loads[-1])
             bars = adhesive_bars(case, law, path, {"loads": loads})
@@ -47,6 +48,9 @@ def test_bars_cover_the_difference_to_four_times_the_cells(make):
     assert len(missed) <= 1, missed  # nine in ten
     # pressure less the strength: the same error, and the load less what pulls outside of the contact
     assert bars.values["mean_contact_traction"] == bars.values["mean_contact_pressure"]
+    # the load and the attraction beside the contact over its area err by the strength of half a cell along the edge
+    difference = found[64]["mean_contact_traction"] - found[256]["mean_contact_traction"]
+    assert abs(difference) < bars.values["mean_contact_traction"]
     # bars that cover anything would say nothing
     assert bars.values["contact_area"] < 0.1 * found[64]["contact_area"]
     assert bars.values["load"] < 1e-4 * np.abs(loads[-1])

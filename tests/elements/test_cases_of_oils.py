@@ -73,7 +73,7 @@ def test_a_grade_with_a_digit_too_many_proposes_the_grade_without_it():
 def test_a_note_on_films_of_several_cases_is_one_line():
     """However many positions of each row it is of; other rows are not named, and another reason is another line."""
     notes = [
-        LUMPED_HEAT_LIMIT(f"at {k} of 12 positions", reason="fast", loading=0.1 * k, limit=0.1, remedy="")
+        LUMPED_HEAT_LIMIT(f"at {k} of 12 positions (B to {k})", reason="fast", loading=0.1 * k, limit=0.1, remedy="")
         for k in (2, 3)
     ]
     whole = LUMPED_HEAT_LIMIT(reason="fast", loading=2.0, limit=0.1, remedy="")
@@ -84,7 +84,7 @@ def test_a_note_on_films_of_several_cases_is_one_line():
     assert one.where == ""
     slides = LUMPED_HEAT_LIMIT("at 1 of 12 positions", reason="slides", slide=0.5, remedy="")
     found = [note.where for note in notes_of_cases([notes[:1], [slides]])]
-    assert found == ["row 1, at 2 of 12 positions", "row 2, at 1 of 12 positions"]
+    assert found == ["row 1, at 2 of 12 positions (B to 2)", "row 2, at 1 of 12 positions"]
 
 
 def test_wide_contacts_of_several_cases_are_one_line():

@@ -137,7 +137,10 @@ def test_the_films_limits_are_said(tmp_path):
     assert any(text.code == "film-molecular" for text in one.notes)
     assert not any(text.code == "viscosity-extrapolated" for text in one.notes)  # friction of rolling is of the inlet
     assert {note.code for note in one.notes} <= {note["code"] for note in said}
-    assert notes([one, replace(one, notes=())])[0] == one.notes[0].at("at 1 of 2 positions")
+    assert notes([one, replace(one, notes=())])[0] == one.notes[0].at(f"at 1 of 2 positions ({one.contact.name})")
+    other = replace(one, contact=replace(one.contact, place=one.contact.place + 1.0), notes=())
+    marks = {"A": one.contact.place}
+    assert notes([other, one, one, other, one], marks)[0] == one.notes[0].at("at 3 of 5 positions (A to A, A)")
 
 
 @pytest.mark.internal

@@ -18,6 +18,7 @@ from bem.kinds.running_in import figures as running_in
 from bem.kinds.running_in_life import figures as running_in_life
 from bem.kinds.surface_temperature.figures import highest_in_words
 from bem.kinds.wear import figures as wear
+from bem.notes.friction import POINT_FILM_SCALED
 from bem.plots import draw as drawing
 from bem.plots.cases import along
 from bem.plots.figures import all_figures
@@ -124,6 +125,22 @@ def test_a_curve_at_one_speed_shows_its_error_bar():
     summary = {"friction": [0.06765], "friction_error": [0.00119], "film_load_N": [985.0], "film_load_N_error": [None]}
     assert with_error("friction", summary) == ("friction coefficient", "0.06765 ± 0.0012")
     assert with_error("film_load_N", summary) == ("film load", "985 N (no error bar)")
+
+
+def test_a_minimum_of_a_film_extrapolated_in_load_is_not_shown():
+    """The ball's film was 204 nm and lambda 1.45 beside a note that they are not to be used, in the long text alone."""
+    note = POINT_FILM_SCALED("speed 2 m/s: film", reason="thin", factors="").as_dict()
+    summary = {"speed_m_s": [1.0, 2.0], "lambda_ratio": [0.5, 1.45], "lambda_ratio_error": [0.1, None], "notes": [note]}
+    (table,) = figure_tables(summary, ["speed_m_s", "lambda_ratio"])
+    assert [cells[-1] for cells in table.rows] == ["0.5 ± 0.1", "–"]
+    alone = {"minimum_film_whole_nm": [204.2], "minimum_film_whole_nm_error": [None], "notes": [note]}
+    assert with_error("minimum_film_whole_nm", alone)[1] == "-"
+    assert with_error("minimum_film_whole_nm", alone | {"notes": []})[1] == "204.2 nm (no error bar)"
+
+
+def test_a_scatter_by_the_oil_stands_beside_a_missing_numerical_error_bar():
+    summary = {"friction": 0.04, "friction_error": None, "friction_oil_scatter": 0.006, "notes": []}
+    assert with_error("friction", summary)[1] == "0.04 (no numerical error bar), ± 0.006 (oil)"
 
 
 def test_errors_of_hundreds_are_written_without_a_power_of_ten():

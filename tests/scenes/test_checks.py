@@ -156,8 +156,8 @@ CASES = {
         with_(BALL, contact__load="100 N"),
     ),
     "mean_pressure_near_hardness": (
-        (with_(ROUGH, contact__mean_pressure="4 GPa"), "0.57 of the pressure cap"),
-        with_(ROUGH, contact__mean_pressure="1 GPa"),
+        (with_(ROUGH, contact__mean_pressure="4 GPa"), "0.57 of the hardness"),
+        with_(ROUGH, contact__mean_pressure="4 GPa", contact__behaviour="elastic"),
     ),
     "grid_smaller_than_hertz": (
         (with_(BALL, grid__lengths="100 um"), "for a Hertz contact of 216 um"),
@@ -297,6 +297,20 @@ def test_the_one_cell_of_a_period_is_no_cell_to_warn_of(size):
     assert not any(word in told[0] for word in words)
     assert all(word in told[1] for word in words)
     assert words[1] in told[2]
+
+
+def test_a_ball_on_a_grid_periodic_along_both_axes_is_told_once():
+    (said,) = fired("curved_body_repeats", with_(BALL, grid__periodic=True))
+    assert "periodic along x and y" in said
+
+
+def test_an_elongated_surface_is_held_against_each_length_of_the_patch():
+    """384 um x 96 um of ridges 38 um x 9.5 um long are ten of their lengths along both axes."""
+    lay = {"kind": "generated", "rms_height": "50 nm", "correlation_length": "19 um", "elongation": 4}
+    patch = with_(ROUGH, grid__shape=[96, 48], grid__lengths=["384 um", "96 um"], lower__surface=lay)
+    assert fired("patch_of_few_correlation_lengths", patch) == []
+    (said,) = fired("patch_of_few_correlation_lengths", with_(patch, grid__lengths=["192 um", "96 um"]))
+    assert "5.1 correlation lengths of the lower surface long along x" in said
 
 
 def test_interfaces_that_no_depths_bracket_are_named():

@@ -31,7 +31,6 @@ EXPECTED_WARNINGS = {
         "adhesive_zone_of_few_cells",  # a range of 2 nm
     },
     "asperities-given-film": {"patch_sinks_at_given_separation"},  # the source's square and its given separation
-    "micropitting-rig": {"patch_of_few_correlation_lengths"},  # ridges of longitudinal lay are as long as the contact
     "stribeck-polymer-roller": {"viscoelastic_material", "lengths_of_the_process"},  # PEEK; ground shaft
     "uniform-asperities": {"yield_below_the_surface"},  # elastic as in the paper, pressed in by up to 4.2 GPa
     "hardness-optimum": {"few_cells_per_wave"},  # the thesis' cell, two to the shortest wave

@@ -7,6 +7,8 @@ import pytest
 from small_scenes import oiled_ball
 
 from bem import InputError, load_scene, solve_point_film
+from bem.kinds.point_film.run import of_this_kind
+from bem.notes.lubrication import HEAT_LEFT_OUT, SET_THERMAL
 from bem.plots.interferograms import colours_of, finely_coloured
 from bem.runs import run_scene
 
@@ -81,6 +83,13 @@ def test_over_speeds_films_grow(tmp_path):
     # Hamrock and Dowson's exponent of the speed, 0.67
     assert math.log(films[1] / films[0]) / math.log(2.5) == pytest.approx(0.67, abs=0.04)
     assert run.dataset["thickness_along"].shape[0] == 2
+
+
+def test_heat_left_out_is_that_of_another_kind():
+    """`thermal` is no key of this kind, and the note on heat said to set it."""
+    (said,) = of_this_kind([HEAT_LEFT_OUT(factor=1.2, reason="inlet", remedy=SET_THERMAL)])
+    assert said.values["remedy"] != SET_THERMAL
+    assert "take kind friction" in said.line
 
 
 def test_a_film_thinner_than_its_roughness_is_said(tmp_path):

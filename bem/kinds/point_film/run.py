@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,8 @@ from bem.errors import Status
 from bem.kinds.point_film.record import PointFilmRecord
 from bem.kinds.point_film.scene import PointFilmScene, patch_grid
 from bem.kinds.point_film.touching import REMEDY, rough_body, rough_notes
+from bem.notes import Note
+from bem.notes.lubrication import HEAT_LEFT_OUT
 from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS, LEAST_FILM_DECIDES
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes import build
@@ -53,7 +56,8 @@ def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
         with context.timer("waves"):
             ripples = ripples_of(scene, film, _dry(case), heights)
         tell(context, wave_notes(ripples))
-    tell(context, but_unknown(film.notes))  # bars are of grids of their own, and say where they are unknown
+    # bars are of grids of their own, and say where they are unknown
+    tell(context, of_this_kind(but_unknown(film.notes)))
     if scene.roughness is not None and film.minimum_thickness < scene.roughness:
         context.note(FILM_THINNER_THAN_ROUGHNESS(where=""))
     wanted = scene.outputs.errors and film.status is Status.CONVERGED
@@ -82,6 +86,17 @@ def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
         **error_bars(context, wanted, bars),
         where=f"film: {film.status.message}, residual {film.residual:.1e}",
     )
+
+
+_OTHER_KINDS = (
+    'Kind point-film has no heat: take kind friction (a ball) or traction (a line film), with thermal = "lumped".'
+)
+
+
+def of_this_kind(notes: Iterable[Note]) -> list[Note]:
+    """Return notes on a film whose scene has no key `thermal`: heat that matters is that of another kind."""
+    remedy = {"remedy": _OTHER_KINDS}
+    return [HEAT_LEFT_OUT(n.where, **{**n.values, **remedy}) if n.code == HEAT_LEFT_OUT.code else n for n in notes]
 
 
 def _case(scene: PointFilmScene) -> PointCase:
@@ -131,7 +146,8 @@ def _rough(scene: PointFilmScene, context: Context) -> PointFilmRecord:
         case.load, case.radii, case.contact_modulus, entrainment(case.speeds), case.lubricant, None, case.bodies
     )
     given = _reference_figures(case, film, scaled)
-    tell(context, [*film.notes, *rough_notes(scene, grid, dry.semi_axes, film), *narrow_notes(case, film)])
+    tell(context, of_this_kind(film.notes))
+    tell(context, [*rough_notes(scene, grid, dry.semi_axes, film), *narrow_notes(case, film)])
     if given["formula_central"] < case.least_film:
         context.note(LEAST_FILM_DECIDES())
     area = math.pi * dry.semi_axes[0] * dry.semi_axes[1]

@@ -32,6 +32,7 @@ from bem.notes.lubrication import (
     HEAT_LEFT_OUT,
     INLET_FRICTION,
     INLET_TOO_SHORT,
+    SET_THERMAL,
 )
 
 if TYPE_CHECKING:
@@ -106,7 +107,7 @@ def inlet_heating(case: PointCase) -> Note | None:
     )
     if heating.factor >= checks.LEAST_INLET_FACTOR * case.reduction:
         return None
-    return HEAT_LEFT_OUT(factor=1 / heating.factor, reason="inlet")
+    return HEAT_LEFT_OUT(factor=1 / heating.factor, reason="inlet", remedy=SET_THERMAL)
 
 
 def bodies_not_rigid(case: PointCase) -> Note | None:
@@ -149,7 +150,7 @@ def film_heating(case: PointCase) -> Note | None:
     flash = 2 * heat * math.sqrt(case.length / math.pi) / (checks.STEEL_EFFUSIVITY * root)
     if film + flash <= checks.LARGEST_HEATING:
         return None
-    return HEAT_LEFT_OUT(limit=checks.LARGEST_HEATING, rise=film + flash, reason="sliding")
+    return HEAT_LEFT_OUT(limit=checks.LARGEST_HEATING, rise=film + flash, reason="sliding", remedy=SET_THERMAL)
 
 
 CHECKS: list[Callable[[PointCase], Note | None]] = [

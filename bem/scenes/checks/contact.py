@@ -16,6 +16,8 @@ from bem.notes.checks import (
     YIELDS,
 )
 from bem.notes.contact import CONTACT_AT_EDGE
+from bem.notes.note import joined
+from bem.quantities import si
 from bem.scenes import build
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.hertz import LARGEST_SLOPE
@@ -86,8 +88,10 @@ def _elastic(facts: Facts) -> Iterator[Case]:
 
 @scene_check
 def mean_pressure_near_hardness(facts: Facts) -> Iterator[Note]:
-    """With half the hardness over the whole grid, half of it touches at the cap; what flows has nowhere to go."""
-    limits = ((case.mean_pressure or 0.0, case.cap or case.softest, case) for case in facts.cases)
+    """With half the hardness over the whole grid, half of it touches at the cap; what flows has nowhere to go.
+
+    An elastic contact has no cap; `elastic_pressure_above_hardness` compares its pressures with the hardness."""
+    limits = ((case.mean_pressure or 0.0, case.cap, case) for case in facts.cases)
     found = worst((pressure / limit, case) for pressure, limit, case in limits if limit)
     if found is not None and found[0] > 0.5:
         ratio, case = found
@@ -170,20 +174,19 @@ def curved_body_repeats(facts: Facts) -> Iterator[Note]:
     for case in facts.cases:
         if case.grid is None or case.smooth is None:
             continue
-        for axis, name in enumerate("xy"):
-            size, length = case.smooth.semi_axes[axis], case.grid.lengths[axis]
-            if case.grid.periodic[axis] and math.isfinite(size):
-                near = f", {length / size:.2g} contact radii apart" if length < 5 * size else ""
-                single = "[false, true]" if case.smooth.line else "false"
-                yield PERIODIC_GRID(
-                    case.note_place("grid"),
-                    axis=name,
-                    shape=case.shape,
-                    length=length,
-                    near=near,
-                    single=single,
-                    reason="body",
-                )
+        sizes, lengths = case.smooth.semi_axes, case.grid.lengths
+        axes = [axis for axis in (0, 1) if case.grid.periodic[axis] and math.isfinite(sizes[axis])]
+        if axes:
+            ratio = min(lengths[axis] / sizes[axis] for axis in axes)
+            yield PERIODIC_GRID(
+                case.note_place("grid"),
+                axis=joined(["xy"[axis] for axis in axes]),
+                shape=case.shape,
+                length=joined(list(dict.fromkeys(si(lengths[axis], "m") for axis in axes))),
+                near=f", {ratio:.2g} contact radii apart" if ratio < 5 else "",
+                single="[false, true]" if case.smooth.line else "false",
+                reason="body",
+            )
 
 
 @scene_check

@@ -119,6 +119,8 @@ def few_cells_per_correlation_length(facts: Facts) -> Iterator[Note]:
 def patch_of_few_correlation_lengths(facts: Facts) -> Iterator[Note]:
     """A patch of L x L holds (L / l)^2 independent pieces of roughness; its means scatter by l / L.
 
+    An elongated surface has its own l along each axis.
+
     A single wave over the patch, which is form and not roughness, has L / l = 5.3. Repetitions with surfaces of their
     own average and show the scatter.
     """
@@ -126,14 +128,16 @@ def patch_of_few_correlation_lengths(facts: Facts) -> Iterator[Note]:
     for case, surface in facts.surfaces:
         if repeated and isinstance(surface.table, GeneratedSurface):
             continue
-        length = surface.correlation_length
-        unknown = math.isnan(length) and min(surface.grid.shape) > 8
-        if unknown or min(surface.grid.lengths) < _LENGTHS_PER_GRID * length:
+        sides, lengths = surface.grid.lengths, surface.correlation_lengths
+        counts = [side / length for side, length in zip(sides, lengths, strict=True)]
+        unknown = any(map(math.isnan, counts)) and min(surface.grid.shape) > 8
+        if unknown or min(counts) < _LENGTHS_PER_GRID:
             yield PATCH_SHORT(
                 case.note_place("grid"),
                 reason="unknown" if unknown else "few",
                 body=surface.body,
-                lengths=math.nan if unknown else min(surface.grid.lengths) / length,
+                lengths=math.nan if unknown else min(counts),
+                along=f" along {'xy'[counts.index(min(counts))]}" if not unknown and lengths[0] != lengths[1] else "",
             )
             return
 
