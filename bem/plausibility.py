@@ -87,10 +87,22 @@ class UsualRange:
         if self.unit == "K":
             likely = "degC" if self.contains(value + ZERO_CELSIUS) else None
         else:
+            value = _as_written(value)
             likely = next((unit for unit, factor in self.meant if self.contains(value * factor)), None)
         if likely is None:
             return "check its unit"
         return f'if the unit is wrong or missing (a number alone is in {self.unit}), write "{value:g} {likely}"'
+
+
+_LEAST_BARE = 1e-2
+"""Value in the SI unit from which it may be a number without a unit; smaller ones come from one with a prefix."""
+
+
+def _as_written(value: float) -> float:
+    """Return the number that was likely written before the unit: 141 of "141 um", 1.41e-4 in metres."""
+    if abs(value) >= _LEAST_BARE or value == 0:
+        return value
+    return float(f"{value * 1000.0 ** -math.floor(math.log(abs(value), 1000) + 1e-9):.12g}")
 
 
 _LENGTHS = (("mm", 1e-3), ("um", 1e-6), ("nm", 1e-9))

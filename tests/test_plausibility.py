@@ -67,6 +67,13 @@ def test_a_small_mean_pressure_is_meant_in_megapascal():
         assert f'write "20 {unit}"' in range_of_key(key).note(key, 20.0)
 
 
+@pytest.mark.internal
+@pytest.mark.parametrize(("value", "proposed"), [(141e-6, "141 nm"), (0.2, "0.2 um"), (141.0, "141 nm")])
+def test_the_number_is_proposed_as_it_was_written(value, proposed):
+    """Of "141 um" it proposed "0.000141 um", which nobody means."""
+    assert f'write "{proposed}"' in range_of_key("rms_height").note("rms_height", value)
+
+
 def test_the_table_of_a_key_and_its_unit_decide_between_ranges():
     assert range_of_key("oil.density").quantity == "density of a liquid"
     assert range_of_key("lower.layers[1].material.density").quantity == "density"

@@ -8,9 +8,13 @@ from bem.adhesion.laws import AdhesionLaw
 from bem.grid import Grid
 from bem.notes import Note
 from bem.notes.contact import ADHESIVE_ZONE_UNRESOLVED
+from bem.quantities import si
 
 FEWEST_CELLS = 2.0
 """Cells across the adhesive zone at an edge, below which the edge is held by the grid."""
+
+MOST_CELLS = 4096 * 4096
+"""Cells of a grid that the note on an unresolved zone recommends at most: an adhesive path on more takes days."""
 
 
 def adhesive_zone(law: AdhesionLaw, modulus: float) -> float:
@@ -48,13 +52,10 @@ def zone_notes(law: AdhesionLaw, modulus: float, grid: Grid, reason: str) -> tup
         return ()
     wanted = zone / FEWEST_CELLS
     cells = [n if n == 1 else math.ceil(length / wanted) for n, length in zip(grid.shape, grid.lengths, strict=True)]
-    return (
-        ADHESIVE_ZONE_UNRESOLVED(
-            zone=zone,
-            cell=cell,
-            wanted=wanted,
-            cells=" x ".join(map(str, cells)),
-            longer=resolved_range(law, modulus, grid),
-            reason=reason,
-        ),
-    )
+    remedy = f"contact.adhesion.range to {si(resolved_range(law, modulus, grid), 'm')} or more at the same work."
+    if math.prod(cells) <= MOST_CELLS:
+        shape = " x ".join(map(str, cells))
+        remedy = (
+            f"grid.shape to {shape} cells or more at these lengths (spacing {si(wanted, 'm')} or less), or {remedy}"
+        )
+    return (ADHESIVE_ZONE_UNRESOLVED(zone=zone, cell=cell, remedy=f"Set {remedy}", reason=reason),)

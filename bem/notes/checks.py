@@ -587,6 +587,11 @@ NOTHING_CAME_OFF = define(
     CAUTION,
     "The wear criterion {law} removed no particle{beside}.",
     reasons={
+        "particles": Reason(
+            "{takes} Depths, worn volume and roughness are those of wear.criterion, {wears}, and hold.",
+            "Raise load, friction or cycles.count, or check yield_stress and the constants of wear.particle_criterion.",
+            headline="wear.particle_criterion {law} found no particle{beside}; the worn volume holds.",
+        ),
         "weak": Reason(
             "{takes}",
             "Raise load, friction or cycles.count, check yield_stress and the constants of wear.criterion, or wear by "

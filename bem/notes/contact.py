@@ -164,13 +164,11 @@ ADHESIVE_ZONE_UNRESOLVED = define(
     OUTSIDE_MODEL,
     "The cells do not resolve the zone in which adhesion acts.",
     "",
-    "Set grid.shape to {cells} cells or more at these lengths (spacing {wanted:si m} or less), or"
-    " contact.adhesion.range to {longer:si m} or more at the same work.",
+    "{remedy}",
     reasons={
         "foreseen": Reason(
             f"{_ZONE} the grid will hold the edge back, adhesion and its hysteresis will be wrong, and the run will"
             " take long.",
-            level=CAUTION,
             foreseen=True,
         ),
         "solved": Reason(f"{_ZONE} the grid holds the edge back, and adhesion and its hysteresis are wrong."),

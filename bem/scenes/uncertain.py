@@ -39,7 +39,7 @@ def value_of(scene: BaseModel, key: str) -> Any:
 
 
 def _keys_of_numbers(model: BaseModel, before: str = "") -> Iterator[str]:
-    """Yield the dotted keys of a scene whose values are set and have decimals."""
+    """Yield the dotted keys of a scene whose values are quantities, not whole numbers or names."""
     for name in type(model).model_fields:
         value = getattr(model, name)
         if isinstance(value, BaseModel):
@@ -72,8 +72,8 @@ def deviation(scene: BaseModel, key: str, given: str | float, unit: str) -> floa
         other = numbered or other
         hint = f' - did you mean "{other}"?' if numbered or found_there else did_you_mean(key, known)
         raise InputError(
-            f'uncertain."{key}": no number is set there; allowed: a dotted key of the scene whose value is set and has '
-            f"decimals, such as contact.load{hint}"
+            f'uncertain."{key}": no quantity is set there; allowed: a dotted key of the scene whose value is a '
+            f"quantity, not a whole number or a name, such as contact.load{hint}"
         )
     text = str(given).strip()
     if text.endswith("%") and not any(numbers):

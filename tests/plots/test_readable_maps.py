@@ -34,14 +34,19 @@ def test_a_spike_does_not_take_the_colours_of_a_surface():
 
 
 def test_a_pressure_map_of_one_colour_says_so():
-    pressure = np.zeros((8, 8))
-    pressure[2:6, 2:6] = 2e9
+    pressure = np.zeros((16, 16))
+    pressure[4:12, 4:12] = 2e9
     assert _one_colour(pressure) == "all of the cells in contact are at one pressure, 2 GPa"
-    pressure[2:4] *= np.linspace(0.1, 0.9, 8)
+    pressure[4:8] *= np.linspace(0.1, 0.9, 16)
     assert _one_colour(pressure) == "50 % of the cells in contact are at one pressure, 2 GPa"
     x = np.linspace(-1, 1, 41)
     assert _one_colour(1e9 * np.sqrt(np.maximum(0.8 - x[:, None] ** 2 - x**2, 0))) == ""
     assert _one_colour(np.zeros((4, 4))) == ""
+    three = np.zeros((8, 8))
+    three[3, 3:6] = 1e8, 2e8, 1e8  # a third of the contact is the cell of its highest pressure
+    assert _one_colour(three) == ""
+    line = np.repeat([[0.0], [1e8], [2e8], [1e8], [0.0]], 64, axis=1)
+    assert _one_colour(line) == ""
 
 
 def test_stress_between_depths_is_smooth_and_never_beyond_what_was_computed():

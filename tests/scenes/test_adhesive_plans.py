@@ -3,8 +3,9 @@
 import math
 
 from bem.adhesion.laws import ExponentialAdhesion
-from bem.adhesion.zone import FEWEST_CELLS, adhesive_zone, cells_in_zone, resolved_range
+from bem.adhesion.zone import FEWEST_CELLS, adhesive_zone, cells_in_zone, resolved_range, zone_notes
 from bem.grid import Grid
+from bem.notes import Level
 from bem.reference_solutions.adhesive_sphere import dmt_pull_off_force, jkr_pull_off_force, tabor_parameter
 from bem.runs import plan_scene
 
@@ -21,6 +22,17 @@ def test_the_range_that_the_note_proposes_has_as_many_cells_as_are_needed():
     longer = ExponentialAdhesion(work=0.05, range=resolved_range(law, modulus, grid))
     assert math.isclose(cells_in_zone(longer, modulus, grid), FEWEST_CELLS, rel_tol=1e-12)
     assert math.isclose(adhesive_zone(law, modulus), math.pi * modulus * 1e-14 / 0.2, rel_tol=1e-12)
+
+
+def test_no_grid_is_recommended_that_cannot_be_solved():
+    """For a range of 1 nm the note recommended 774028 x 774028 cells, at two levels before and after the run."""
+    grid = Grid((96, 96), (4e-7, 4e-7))
+    for reach, grids in ((1e-9, False), (5e-8, True)):
+        law = ExponentialAdhesion(work=0.05, range=reach)
+        both = [zone_notes(law, 3.3e6, grid, reason)[0] for reason in ("foreseen", "solved")]
+        assert all(("grid.shape" in note.line) is grids for note in both)
+        assert all("contact.adhesion.range to" in note.line for note in both)
+        assert {note.level for note in both} == {Level.OUTSIDE_MODEL}
 
 
 def test_limits_of_the_pull_off_force_are_those_of_tabors_parameter():

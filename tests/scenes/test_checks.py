@@ -999,6 +999,16 @@ def test_the_variant_of_which_nothing_comes_off_is_named():
     assert "removed no particle" in said
 
 
+def test_a_law_that_finds_no_particles_beside_a_worn_volume_is_named_by_its_key():
+    """The note read as if nothing had worn, beside a wear volume by Archard's law."""
+    archard = 'wear.criterion={ kind = "archard", specific_wear_rate = "1e-7 mm^3/(N*m)", distance = "1 mm" }'
+    facts = facts_of("wear-steel-steel", archard, "wear.particle_criterion=averaged_von_mises")
+    told = next(OUTCOME_CHECKS["nothing_comes_off"](facts, wear_outcome([], particles_per_cycle=[0.0] * 3)))
+    assert "wear.particle_criterion averaged_von_mises found no particle" in told
+    assert "worn volume holds" in told.line
+    assert "wear.criterion, archard" in told
+
+
 def test_running_in_tells_too_where_nothing_comes_off():
     facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["nothing_comes_off"]
     assert "removed no particle" in " ".join(

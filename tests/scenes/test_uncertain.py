@@ -52,9 +52,9 @@ def test_of_a_list_all_entries_change_alike():
     ("uncertain", "words"),
     [
         ({"contact.lod": "5 %"}, 'did you mean "contact.load"'),
-        ({"contact.approach": "5 %"}, "no number is set there"),
-        ({"grid.shape": "5 %"}, "no number is set there"),
-        ({"shape.kind": "5 %"}, "no number is set there"),
+        ({"contact.approach": "5 %"}, "not a whole number or a name"),
+        ({"grid.shape": "5 %"}, "not a whole number or a name"),
+        ({"shape.kind": "5 %"}, "not a whole number or a name"),
         ({"contact.load": "5 nm"}, "0.1 N"),
         ({"contact.load": "0 %"}, "not a positive standard deviation"),
         ({"contact.friction": "20 %"}, "the value is 0, so a share of it is none; allowed: an absolute deviation"),

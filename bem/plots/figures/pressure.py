@@ -30,16 +30,22 @@ def _pressure_map(run: Any, figure: Figure) -> None:
     axes.set_title(_one_colour(pressure), loc="right")
 
 
+_ALIKE_BY_SYMMETRY, _ROWS_ALIKE = 8, 3
+
+
 def _one_colour(pressure: NDArray[np.float64]) -> str:
     """Describe the pressure of a map in its darkest colour alone; empty where less than a tenth of the contact is at
     one pressure.
 
-    Only a cap, or full contact of smooth bodies, makes so many cells alike.
+    Only a cap, or full contact of smooth bodies, makes many cells alike over several rows and columns. The highest
+    pressure of an elastic contact is that of up to eight cells, by symmetry, or of one or two rows of a line contact.
     """
     highest, touching = float(pressure.max()), int(np.count_nonzero(pressure > 0))
     factor, unit = prefix([highest], "Pa")
-    share = float(np.count_nonzero(pressure >= highest * (1 - 1e-6))) / max(touching, 1)
-    if touching < 2 or share < _AT_ONE_PRESSURE:
+    alike = (pressure >= highest * (1 - 1e-6)) & (pressure > 0)
+    cells, spread = int(np.count_nonzero(alike)), min(np.count_nonzero(alike.any(axis=axis)) for axis in (0, 1))
+    share = cells / max(touching, 1)
+    if cells <= _ALIKE_BY_SYMMETRY or spread < _ROWS_ALIKE or share < _AT_ONE_PRESSURE:
         return ""
     part = "all" if share > 0.999 else f"{100 * share:.0f} %"
     return f"{part} of the cells in contact are at one pressure, {highest * factor:.3g} {unit}"

@@ -490,7 +490,9 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[Note]:
             law = case.wear.finds_particles.name
             note = partial(NOTHING_CAME_OFF, case.label, law=law, takes=takes, beside=beside)
             ratio = pure_rolling(facts)
-            if _cycles_differ(case):
+            if case.wear.finds_particles is not case.wear.criterion:
+                yield note(wears=case.wear.criterion.name, reason="particles")
+            elif _cycles_differ(case):
                 yield note(reason="weak")
             elif ratio is not None:
                 yield note(ratio=ratio, reason="rolls")
