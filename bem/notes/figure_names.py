@@ -23,6 +23,8 @@ FIGURE_NAMES: dict[str, str] = {
     "mean_contact_traction": "mean of pressure less attraction in contact",
     "concentration": "concentration of substrate at the surface of the film",
     "share_of_lower": "share of the heat that enters the lower body",
+    "load_over_hertz": "load over that of an asperity alone",
+    "load_over_hertz_finite_array": "load over that of an asperity alone, of a finite array",
     "lowest_load": "pull-off force (lowest load)",
     "jkr_lowest_load": "pull-off force by JKR (soft spheres)",
     "dmt_lowest_load": "pull-off force by DMT (stiff spheres)",

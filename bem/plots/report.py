@@ -38,12 +38,14 @@ from bem.plots.tables import (
     reported_mean,
     scatters_of,
     shown_values,
+    upper_bounds,
     varied_keys,
     window_of,
     with_scatter,
     within,
     without_bars_of_loop,
     without_particles,
+    words_of,
 )
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
@@ -152,8 +154,8 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     if name in (varied := varied_keys(summary)):
         sign, cells = shown_values(name, [value], varied[name])
         return name, f"{cells[0]} {sign}".rstrip()
-    text, shown = spelled(name, value)
-    text += reported_mean(name, summary) + window_of(name, summary)
+    shown = spelled(name, value)[1]
+    text = words_of(name, summary) + reported_mean(name, summary) + window_of(name, summary)
     if not value and is_of_particles(name) and without_particles(summary):
         return text, NOT_COMPUTED
     if is_size_of_no_particles(name, value) or any(extrapolated_minima(name, [value], summary)):
@@ -164,6 +166,8 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
         none = (f"{name}_error" in summary and error is None) or name in without_bars_of_loop(summary)
         none = none and value is not None
         return text, f"{shown} {NO_BAR}" if none else shown
+    if any(upper_bounds(name, [value], {**summary, f"{name}_error": error})):
+        return text, f"below {shown}"
     if error > abs(value):
         return text, _in_unit_of_error(name, value, error)
     number, *unit = shown.split(" ")

@@ -11,7 +11,7 @@ import numpy as np
 
 from bem.notes import Level
 from bem.notes.figure_names import figure_name
-from bem.notes.friction import POINT_FILM_SCALED
+from bem.notes.friction import BOUNDARY_LUBRICATION, POINT_FILM_SCALED
 from bem.notes.note import of_summary
 from bem.physical_constants import ZERO_CELSIUS
 from bem.plots.labels import label, prefix
@@ -50,6 +50,16 @@ def name_and_unit(name: str) -> tuple[str, str]:
     words, unit = unit_of(name)
     unit = _OWN_UNITS.get(words, unit)
     return figure_name(words), with_signs(unit)
+
+
+def words_of(name: str, summary: Mapping[str, Any]) -> str:
+    """Return the name of a figure in words.
+
+    In rolling contact the force over the load is called traction coefficient; it is less than the friction coefficient
+    of the scene where the contact sticks in part.
+    """
+    rolls = summary.get("kind") == "rolling" and name == "traction_coefficient"
+    return "traction coefficient, force over load" if rolls else name_and_unit(name)[0]
 
 
 def reported_mean(name: str, summary: Mapping[str, Any]) -> str:
@@ -539,6 +549,8 @@ def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str, colum
             scatters=scatters_of(name, summary),
             mean=reported_mean(name, summary) + window_of(name, summary),
             limited=limited_by_hardness(name, summary),
+            bounds=upper_bounds(name, summary[name], summary),
+            words=words_of(name, summary),
         )
         for name in names
         if name not in leading and name not in varied and name not in repeated
@@ -606,14 +618,17 @@ def _column(
     scatters: Mapping[str, Any] | None = None,
     mean: str = "",
     limited: Sequence[bool] = (),
+    bounds: Sequence[bool] = (),
+    words: str = "",
 ) -> tuple[str, list[str]]:
     """Head with its unit, and the values in it; not-a-number and nothing are a dash.
 
     scatters : of each value, by `SCATTERS`. mean : words behind the name, of `reported_mean`. limited : of each value,
-    as `limited_by_hardness` gives them.
+    as `limited_by_hardness` gives them. bounds : of each value, as `upper_bounds` gives them.
+    words : the name, as `words_of` gives it.
     """
-    words, unit = name_and_unit(name)
-    words += mean
+    plain, unit = name_and_unit(name)
+    words = (words or plain) + mean
     values = [None if is_size_of_no_particles(name, value) else value for value in values]
     numbers = [v for v in values if isinstance(v, int | float) and not isinstance(v, bool)]
     factor = 1.0
@@ -634,6 +649,9 @@ def _column(
             f"{within(name, value, s, factor) if bars else f'± {plain_digits(s * factor)}'}".rstrip()
             for cell, s, value in zip(cells, spread, values, strict=True)
         ]
+    if any(bounds):
+        pairs = zip(bounds, cells, values, strict=True)
+        cells = [f"below {_cell(value, factor)}" if at else cell for at, cell, value in pairs]
     each = {k: v for k, v in (scatters or {}).items() if isinstance(v, list) and len(v) == len(values)}
     if each:
         cells = [
@@ -704,6 +722,23 @@ def _without_extrapolated(name: str, summary: Mapping[str, Any]) -> list[Any]:
     return [None if out else value for out, value in zip(left_out, values, strict=True)]
 
 
+def upper_bounds(name: str, values: Sequence[Any], summary: Mapping[str, Any]) -> list[bool]:
+    """Return for each value of a figure whether it is the least load of a film that the load sharing looks for.
+
+    In boundary lubrication the film bears at most that load, which its error bar exceeds.
+    """
+    errors = summary.get(f"{name}{_ERROR}")
+    errors = errors if isinstance(errors, list) else [errors] * len(values)
+    boundary = any(note["code"] == BOUNDARY_LUBRICATION.code for note in of_summary(summary))
+    if not boundary or unit_of(name)[0] not in _FILM_LOADS or len(errors) != len(values):
+        return [False] * len(values)
+    return [
+        error is not None and value is not None and error >= value for error, value in zip(errors, values, strict=True)
+    ]
+
+
+_FILM_LOADS = ("film_load", "oil_film_load")
+"""Names of the load of a film beside that of asperities."""
 _MINIMA = ("minimum_film", "lambda_ratio")
 """Beginnings of the names of figures that are minima of a film."""
 

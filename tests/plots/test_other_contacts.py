@@ -18,7 +18,7 @@ from bem.kinds.running_in import figures as running_in
 from bem.kinds.running_in_life import figures as running_in_life
 from bem.kinds.surface_temperature.figures import highest_in_words
 from bem.kinds.wear import figures as wear
-from bem.notes.friction import POINT_FILM_SCALED
+from bem.notes.friction import BOUNDARY_LUBRICATION, POINT_FILM_SCALED
 from bem.plots import draw as drawing
 from bem.plots.cases import along
 from bem.plots.figures import all_figures
@@ -136,6 +136,27 @@ def test_a_minimum_of_a_film_extrapolated_in_load_is_not_shown():
     alone = {"minimum_film_whole_nm": [204.2], "minimum_film_whole_nm_error": [None], "notes": [note]}
     assert with_error("minimum_film_whole_nm", alone)[1] == "-"
     assert with_error("minimum_film_whole_nm", alone | {"notes": []})[1] == "204.2 nm (no error bar)"
+
+
+def test_the_least_load_of_a_film_is_an_upper_bound():
+    """In boundary lubrication the row had "5 (0 to 10.5) mN", the least load that the balance looks for."""
+    note = BOUNDARY_LUBRICATION(share=1e-5, reason="load").as_dict()
+    summary = {"speed_m_s": [1.0, 2.0], "film_load_N": [0.005, 300.0], "film_load_N_error": [0.0055, 2.5]}
+    (table,) = figure_tables(summary | {"notes": [note]}, ["speed_m_s", "film_load_N"])
+    assert [cells[-1] for cells in table.rows] == ["below 0.005", "300 ± 2.5"]
+    alone = {"film_load_N": [0.005], "film_load_N_error": [0.0055], "notes": [note]}
+    assert with_error("film_load_N", alone) == ("film load", "below 5 mN")
+    assert with_error("film_load_N", alone | {"notes": []})[1] == "5 (0 to 10.5) mN"
+
+
+def test_force_over_load_of_rolling_is_no_friction_coefficient():
+    """Of a contact that sticks in part it is 0.2266 for `friction = 0.3`."""
+    rolling = {"kind": "rolling", "traction_coefficient": 0.2266}
+    assert with_error("traction_coefficient", rolling)[0] == "traction coefficient, force over load"
+    assert with_error("traction_coefficient", rolling | {"kind": "traction"})[0] == "friction coefficient"
+    lists = {"kind": "rolling", "load_N": [1.0, 2.0], "traction_coefficient": [0.2, 0.3]}
+    (table,) = figure_tables(lists, ["load_N", "traction_coefficient"])
+    assert table.head[-1] == "traction coefficient, force over load"
 
 
 def test_a_scatter_by_the_oil_stands_beside_a_missing_numerical_error_bar():

@@ -1162,6 +1162,9 @@ def test_a_line_contact_on_a_layer_of_the_substrate_is_that_of_hertz(thickness):
     assert line_contact_on_layer(Body(steel, layer=Layer(soft, 1e-6)), body, line) is None
 
 
+RADII = [[], ["contact.ball=", 'contact.radii=["10 mm", "20 mm"]']]
+
+
 @pytest.mark.internal
 def test_the_overview_shows_what_is_pressed_together():
     facts = facts_of(with_(BALL, lower__layer={"material": "dlc", "thickness": "20 um"}))
@@ -1172,6 +1175,8 @@ def test_the_overview_shows_what_is_pressed_together():
     assert shown["Hertz pressure without layers"] == "781 MPa"
     assert "20 um of dlc" in dict(bodies(facts))["lower"]
     assert differing(facts) == ([], [])
+    oiled = [dict(bodies(facts_of("stribeck-ball-on-disc", *change)))["upper shape"] for change in RADII]
+    assert [shape.split(",")[0] for shape in oiled] == ["sphere", "ellipsoid"]
     names, rows = differing(facts_of("wear-steel-steel"))
     assert names[0] == "case"
     assert [row[0] for row in rows] == ["2.5 N", "5 N", "10 N"]

@@ -207,7 +207,8 @@ def _material(material: Material) -> str:
 def _shape(case: Case) -> str:
     if case.smooth is not None:
         radii = [si(r, "m") for r in dict.fromkeys(case.smooth.radii) if math.isfinite(r)]
-        return f"{case.shape}, radius {' x '.join(radii)}"
+        ball = case.shape == "ellipsoid" and all(map(math.isfinite, case.smooth.radii)) and len(radii) == 1
+        return f"{'sphere' if ball else case.shape}, radius {' x '.join(radii)}"
     return case.shape if case.wavelength is None else f"{case.shape}, wavelength {si(case.wavelength, 'm')}"
 
 
