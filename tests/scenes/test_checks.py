@@ -1162,7 +1162,7 @@ def test_a_line_contact_on_a_layer_of_the_substrate_is_that_of_hertz(thickness):
     assert line_contact_on_layer(Body(steel, layer=Layer(soft, 1e-6)), body, line) is None
 
 
-RADII = [[], ["contact.ball=", 'contact.radii=["10 mm", "20 mm"]']]
+RADII = [[], ["contact.ball=", 'contact.radii=["10 mm", "9 mm"]']]
 
 
 @pytest.mark.internal
