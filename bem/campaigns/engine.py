@@ -214,7 +214,11 @@ def _together(campaign: Campaign, results: Sequence[Result], board: Board, epoch
     for result in results:
         for stage, spent in result.seconds.items():
             seconds[stage] = seconds.get(stage, 0.0) + spent
-    notes = notes_of([(case.label, result.notes) for case, result in zip(campaign.cases, results, strict=True)])
+    by_case = [(case.label, result.notes) for case, result in zip(campaign.cases, results, strict=True)]
+    notes = notes_of(by_case)
+    if is_path(campaign):
+        for note in notes_of_path(by_case):
+            board.note(note)
     for note in map(as_note, (*words_of_bars(campaign, records), *words_of_levels(campaign, records))):
         notes.append(note)
         board.note(note)
@@ -237,12 +241,38 @@ def notes_of(by_case: Sequence[tuple[str, Sequence[str]]], named: int = 3) -> li
     return merge([notes for _, notes in by_case], labels)
 
 
+def is_path(campaign: Campaign) -> bool:
+    """Return True for the positions of one path, whose notes the terminal shows after all of them, each once."""
+    return [axis.name for axis in campaign.axes] == ["position"]
+
+
+def notes_of_path(by_case: Sequence[tuple[str, Sequence[str]]], named: int = 3) -> list[Note]:
+    """Return the notes of the positions of a path, each once, with the number of positions it applies to, and which
+    where these are few.
+
+    Parameters
+    ----------
+    by_case : label and notes of each position.
+    named : positions that are named at most.
+    """
+    count = len(by_case)
+
+    def place(indices: list[int]) -> str:
+        labels = ", ".join(by_case[index][0].removeprefix("position ") for index in indices)
+        few = f" ({labels})" if len(indices) <= named else ""
+        return f"at {len(indices)} of {count} positions{few}"
+
+    merged = merge([notes for _, notes in by_case], place)
+    return [note if note.where.startswith("at ") else note.at(f"at {count} of {count} positions") for note in merged]
+
+
 class Board:
     """Progress of all cases as one, and their notes with the case in front."""
 
     def __init__(self, watcher: Watcher, campaign: Campaign) -> None:
         self._watcher = watcher
         self._cases = campaign.cases
+        self._after_all = is_path(campaign)
         self._steps: dict[str, dict[int, int]] = {}
         self._totals: dict[str, int] = {}
         self._finished: set[int] = set()
@@ -271,7 +301,12 @@ class Board:
         self._show(what, figures)
 
     def remark(self, index: int, text: str) -> None:
-        """Show a note of one case with its label, unless another case has shown it with other numbers."""
+        """Show a note of one case with its label, unless another case has shown it with other numbers.
+
+        Notes of the positions of a path are shown after all of them, with their number: `notes_of_path`.
+        """
+        if self._after_all and isinstance(text, Note):
+            return
         said: Hashable = identity(text) if isinstance(text, Note) else text
         if said in self._said:
             return

@@ -13,10 +13,12 @@ import numpy as np
 import pytest
 
 from bem.campaigns import campaign_of, compute, jobs, plan
-from bem.campaigns.engine import Board, notes_of
+from bem.campaigns.engine import Board, notes_of, notes_of_path
 from bem.campaigns.local import compute_locally
 from bem.errors import ConvergenceError, InputError, interrupts_as_they_are
 from bem.kinds.wear.kind import KIND
+from bem.notes.note import as_note
+from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS
 from bem.results import open_run
 from bem.runs import plan_scene, run_scene
 from bem.scenes import load_scene, wearing
@@ -212,6 +214,16 @@ def test_an_interrupt_that_falls_into_a_compiled_call_pauses_the_run(tmp_path, m
 def test_notes_say_which_cases_they_are_of():
     by_case = [("load 1 N", ["a", "b"]), ("load 2 N", ["a"]), ("load 3 N", ["a", "c"]), ("load 4 N", ["a", "c"])]
     assert notes_of(by_case) == ["a", "load 1 N: b", "load 3 N; load 4 N: c"]
+
+
+@pytest.mark.internal
+def test_notes_of_a_path_say_at_how_many_positions_they_hold():
+    """The first position's note stood for all 31, as if it were of that one alone."""
+    touching, few = FILM_THINNER_THAN_ROUGHNESS(where=""), as_note("few cells").at("film")
+    found = notes_of_path(
+        [("position -1 mm", [touching]), ("position 0 m", [touching, few]), ("position 1 mm", [touching])]
+    )
+    assert [note.where for note in found] == ["at 3 of 3 positions", "at 1 of 3 positions (0 m), film"]
 
 
 @pytest.mark.internal
