@@ -275,7 +275,7 @@ LAYER_MESH = define(
             "It is {thickness:si m} thick on cells of {cell:si m}: the layer's softness is right, its bending stresses"
             " are not.",
             "Take cells no larger than the layer's thickness where its stresses matter.",
-            headline="The layer is thinner than the cells.",
+            headline="The outermost layer, {layer}, is thinner than half a cell.",
         ),
         "thick": Reason(
             "It is {thickness:si m} thick over a grid of {length:si m}, and the substrate is hardly felt.",

@@ -196,7 +196,7 @@ CASES = {
         with_(ROUGH, grid__shape=40),
     ),
     "layer_against_the_mesh": (
-        (with_(BALL, lower__layer={"material": "dlc", "thickness": "2 um"}), "2 um thick on cells of 12.5 um"),
+        (with_(BALL, lower__layer={"material": "dlc", "thickness": "2 um"}), "outermost layer, dlc, is thinner"),
         with_(BALL, lower__layer={"material": "dlc", "thickness": "20 um"}),
     ),
     "depths_miss_the_largest_stress": (

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 from bem.materials import Body
 from bem.notes import Note
@@ -144,8 +145,11 @@ def patch_of_few_correlation_lengths(facts: Facts) -> Iterator[Note]:
 
 @scene_check
 def layer_against_the_mesh(facts: Facts) -> Iterator[Note]:
-    """A layer thinner than half a cell deforms within the cell alone; one much thicker than the grid is a
-    half-space."""
+    """A layer thinner than half a cell deforms within the cell alone; one much thicker than the grid is a half-space.
+
+    Of 2 um of TiN on steel under a contact of 140 um the largest tension in the layer errs by 5 to 7 % on cells of 12
+    and 6 um, 0.9 % on 3.1 um and 0.04 % on 1.6 um, against cells of 0.8 um.
+    """
     seen = set()
     for case in facts.cases:
         for name, body in case.bodies.items():
@@ -155,7 +159,8 @@ def layer_against_the_mesh(facts: Facts) -> Iterator[Note]:
             spacing, length = (max(sides[axis] for axis in axes) for sides in (case.grid.spacing, case.grid.lengths))
             if thickness < 0.5 * spacing and (name, "thin") not in seen:
                 seen.add((name, "thin"))
-                yield LAYER_MESH(case.note_place(f"{name}.layer"), thickness=thickness, cell=spacing, reason="thin")
+                thin: dict[str, Any] = {"layer": body.layer.material.name, "thickness": thickness, "cell": spacing}
+                yield LAYER_MESH(case.note_place(f"{name}.layer"), **thin, reason="thin")
             if thickness > 2 * length and not all(case.grid.periodic) and (name, "thick") not in seen:
                 seen.add((name, "thick"))
                 yield LAYER_MESH(case.note_place(f"{name}.layer"), thickness=thickness, length=length, reason="thick")
