@@ -153,6 +153,7 @@ RANGES: tuple[UsualRange, ...] = (
          "length", "tip_diameters", "shaft_diameter", "wall"),
         _LENGTHS,
     ),
+    UsualRange("place of the contact over the ring's height", "", 0.02, 0.98, ("crown",), (), "rings have about 0.5"),
     UsualRange("module", "m", 5e-5, 0.1, ("module",), _LENGTHS, "gears of watches have 0.1 mm, of mills 30 mm"),
     UsualRange("mass", "kg", 1e-5, 50.0, ("mass",), (("g", 1e-3),), "tappets and valves have 20 to 500 g"),
     UsualRange(

@@ -337,6 +337,7 @@ def _answer(found: Element, runs: Sequence[Running]) -> None:
 
 
 def _chosen(found: Element, at: str) -> ElementContact:
+    from bem.elements.gear_pair import GearModel
     from bem.errors import InputError
 
     if at == "worst":
@@ -348,7 +349,8 @@ def _chosen(found: Element, at: str) -> ElementContact:
         return found.found.marked[at]
     if at.isdigit() and 1 <= int(at) <= len(contacts):
         return contacts[int(at) - 1]
-    raise InputError(f'--at "{at}": allowed: worst, thinnest, path, {marks}or a number from 1 to {len(contacts)}')
+    path = "path, " if isinstance(found.model, GearModel) else ""
+    raise InputError(f'--at "{at}": allowed: worst, thinnest, {path}{marks}or a number from 1 to {len(contacts)}')
 
 
 _FILM_KINDS = ("traction", "point-film", "friction", "running-in", "running-in-life")

@@ -38,13 +38,14 @@ from bem.elements.gear_scuffing import (
 )
 from bem.elements.model import LEAST_ASPERITY_SHARE
 from bem.elements.plain_bush import PlainBushModel
-from bem.elements.rolling_bearing import USUAL_BALL_FRICTION, BearingModel
+from bem.elements.rolling_bearing import USUAL_BALL_FRICTION, BearingModel, usual_ball_moment
 from bem.elements.rough_scenes import FINISHES
 from bem.elements.running import Running, columns, over_slices, run_all
 from bem.elements.running import notes as film_notes
 from bem.errors import InputError
 from bem.notes import Note
 from bem.notes.elements import (
+    BALANCE_WITHOUT_SLIDING,
     BUSH_BOUNDS,
     BUSH_CONFORMS,
     BUSH_FLOATS,
@@ -79,9 +80,10 @@ PLACES = 11
 """Films that are solved for an answer on one screen, beside marked and extreme contacts; `--running` solves all."""
 _LEAST_SCATTER = 0.005
 """Scatter of the friction power, over it, below which it is left out."""
-_LEAST_RATIO = 1.0
+_LEAST_RATIO, _LEAST_RATIO_SUPERFINISHED = 2.0, 1.0
 """Lambda ratio below which scenes of new ground and honed surfaces have a much larger load share of asperities than the
-estimate (20 % estimated against 59 % at 0.80, 36 against 84 % at 0.6)."""
+estimate (5 % estimated against 51 % at 1.5, 20 against 59 % at 0.80, 36 against 84 % at 0.6), and of superfinished ones
+often a smaller one."""
 _NEW_SURFACES = (
     ". The estimate is a fit for ground, run-in surfaces: asperities of new ones with random roughness, as in scenes "
     "of kind friction, carry {more}, and friction lies between both"
@@ -91,6 +93,8 @@ _SUPERFINISHED = (
     "kind friction, asperities often carry less"
 )
 """Of roller bearings 51 % estimated against 35 % in the scene at a lambda ratio of 0.40, 26 against 20 % at 0.71."""
+_FAR_MORE = 1.5
+"""Usual friction power of ball bearings over that of their films from which a heat balance is said to be too cold."""
 _NEARLY_ALL = 0.9
 """Estimated load share of asperities above which new surfaces, which carry more, are said to carry nearly all."""
 _BALANCE_ROUNDS, _BALANCE_STEP, _HALVINGS = 20, 0.2, 6
@@ -234,6 +238,15 @@ def balance_heat(
             power = likely_power(at, run_all(at, told, most=most))
         return around + power / conductance - temperature
 
+    def balanced(heat: Element, start: float) -> float:
+        try:
+            return _balanced(partial(excess_with, heat), start)
+        except InputError as error:
+            raise InputError(
+                f"heat_balance: with {conductance:g} W/K friction warms the bodies beyond what the oil stands; check "
+                f"conductance, load and speed. {error}"
+            ) from None
+
     start = around
     if element.model.thermal == "full" and _power_without_films(element) is None:
         lumped = replace(
@@ -241,8 +254,8 @@ def balance_heat(
             model=element.model.model_copy(update={"thermal": "lumped"}),
             table={**element.table, "thermal": "lumped"},
         )
-        start = _balanced(partial(excess_with, lumped), around)
-    return element.at_bulk(_balanced(partial(excess_with, element), start))
+        start = balanced(lumped, around)
+    return element.at_bulk(balanced(element, start))
 
 
 def _balance_bush(element: Element, model: PlainBushModel, told: Callable[[int, int], None]) -> Element:
@@ -409,11 +422,25 @@ def film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | None
     )
 
 
+def _balance_without_sliding(element: Element, runs: Sequence[Running]) -> Note | None:
+    """Return a note on a heat balance of balls whose films have far less friction than such bearings usually have."""
+    model, start = element.model, element.balanced_from
+    assert isinstance(model, BearingModel)
+    if not runs or start is None or model.bulk_temperature is None or model.length is not None or model.axial_load:
+        return None
+    films, usual = likely_power(element, runs), usual_ball_moment(model) * model.speed
+    if usual < _FAR_MORE * films:
+        return None
+    celsius = start + (model.bulk_temperature - start) * usual / films - ZERO_CELSIUS
+    return BALANCE_WITHOUT_SLIDING(celsius=celsius, usual=usual, films=films)
+
+
 def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...]:
     """Return notes on limits that the answer exceeds; `solved` as in `answer`."""
     runs = [one for one in solved if one.converged]
     if isinstance(element.model, BearingModel):
-        return life_notes(element, least_film_ratio(runs))
+        cold = _balance_without_sliding(element, runs)
+        return (*([] if cold is None else [cold]), *life_notes(element, least_film_ratio(runs)))
     if not isinstance(element.model, PlainBushModel):
         return ()
     return bush_notes(element.model, film_of_bush(element, runs))
@@ -552,7 +579,8 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
     smoother = FINISHES.get(element.model.element) == "superfinished"
     more = "nearly all of the load" if share > _NEARLY_ALL else "far more"
     rougher = ""
-    if touching and ratio < _LEAST_RATIO and thinnest.mixed_friction is None:
+    least = _LEAST_RATIO_SUPERFINISHED if smoother else _LEAST_RATIO
+    if touching and ratio < least and thinnest.mixed_friction is None:
         rougher = _SUPERFINISHED if smoother else _NEW_SURFACES.format(more=more)
     return f"{ratio:.3g} ({regime}{touching}), {film}{cool}{_unsolved_words(element)}{rougher}"
 
@@ -681,7 +709,7 @@ def _moment(model: BearingModel, power: float) -> str:
     if model.length is not None:
         return f"{said}, without cage, roller ends, churning and seals"
     said += " in pure rolling: sliding within the curved contacts (Heathcote) and spin of the balls are missing"
-    usual = 1e3 * USUAL_BALL_FRICTION * model.load * 0.5 * model.bore
+    usual = 1e3 * usual_ball_moment(model)
     if model.axial_load:
         return f"{said}, as are cage, churning and seals"
     return (

@@ -43,7 +43,7 @@ HIGHEST_LOAD = 0.5
 KAPPA_EXPONENT = 1.3
 """ISO 281 relates the viscosity ratio to the lambda ratio by kappa = lambda^1.3, approximately."""
 _WELL_BELOW = 0.7
-"""Fraction of kappa below which the film's own kappa is said: a_ISO hardly differs above."""
+"""Fraction of kappa below which a note says that the film's own kappa is smaller: a_ISO hardly differs above."""
 _RATINGS_ALIKE = 2.0
 """Factor by which a catalogue's rating may differ from that of the dimensions without a note."""
 DEFAULT_CLEANLINESS = "normal"
@@ -146,7 +146,7 @@ def kinematic_viscosity(element: Element) -> float | None:
 def life_of_film(element: Element, film_ratio: float | None) -> BearingLife | None:
     """Return the lives with the viscosity ratio that the solved film stands for, kappa = lambda^1.3.
 
-    None where that is not well below the ratio of the viscosities, and where one of both is not known.
+    None where that is not below the ratio of the viscosities, and where one of both is not known.
 
     film_ratio : smallest lambda ratio of the solved films; None without roughness or films.
     """
@@ -154,7 +154,7 @@ def life_of_film(element: Element, film_ratio: float | None) -> BearingLife | No
     if kappa is None or film_ratio is None:
         return None
     film = film_ratio**KAPPA_EXPONENT
-    return bearing_life(element, film) if film < _WELL_BELOW * min(kappa, MOST_KAPPA) else None
+    return bearing_life(element, film) if film < min(kappa, MOST_KAPPA) else None
 
 
 def life_rows(element: Element, film_ratio: float | None = None) -> list[tuple[str, str]]:
@@ -235,8 +235,8 @@ def life_notes(element: Element, film_ratio: float | None) -> tuple[Note, ...]:
         notes.append(LOAD_ABOVE_LIFE_FORMULA(ratio=rating.load / rating.dynamic_rating))
     if life.static_rating < life.static_load:
         notes.append(STATIC_LOAD_ABOVE_RATING(safety=life.static_rating / life.static_load))
-    if of_film is not None:
-        kappa, film = rating.viscosity_ratio, of_film.rating.viscosity_ratio
+    kappa, film = rating.viscosity_ratio, None if of_film is None else of_film.rating.viscosity_ratio
+    if of_film is not None and kappa is not None and film is not None and film < _WELL_BELOW * min(kappa, MOST_KAPPA):
         reason = "not defined" if of_film.rating.modified is None else "shorter"
         notes.append(KAPPA_ABOVE_FILM(kappa=kappa, ratio=film_ratio, film=film, reason=reason))
     return tuple(notes)

@@ -139,12 +139,15 @@ class Element:
     bulk_estimated : True if the bulk temperature is an estimate in place of one of the file.
     ambient : temperature of the surroundings whose heat balance gave the bulk temperature [K]; None of a bush, which
         has its own words, and without such a balance.
+    balanced_from : temperature above which a heat balance raised the bulk temperature [K], of the surroundings or the
+        oil; None without a balance.
     """
 
     model: ElementModel
     table: Mapping[str, Any]
     bulk_estimated: bool = False
     ambient: float | None = None
+    balanced_from: float | None = None
 
     @cached_property
     def found(self) -> Contacts:
@@ -193,13 +196,14 @@ class Element:
         """Return the element with bodies of a temperature [K], in place of its bulk temperature or heat balance."""
         table = {key: value for key, value in self.table.items() if key not in ("bulk_temperature", "heat_balance")}
         changes: dict[str, Any] = {"bulk_temperature": temperature, "heat_balance": None}
-        balance, ambient = self.model.heat_balance, None
+        balance, ambient, start = self.model.heat_balance, None, None
         if isinstance(self.model, PlainBushModel):  # says to where the heat flows, and which conductance is assumed
             changes["heat_balance"] = balance or HeatBalanceScene()
         elif balance is not None:
             ambient = balance.ambient
+            start = ambient if ambient is not None or self.model.oil is None else self.model.oil.temperature
         warm = table | {"bulk_temperature": temperature}
-        return Element(self.model.model_copy(update=changes), warm, estimated, ambient)
+        return Element(self.model.model_copy(update=changes), warm, estimated, ambient, start)
 
     @property
     def inlet_oil(self) -> OilScene | None:

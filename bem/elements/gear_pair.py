@@ -46,6 +46,8 @@ _NODES = 12
 """Gauss nodes between two marks of the path: sliding losses within 1e-4 of those with four times as many."""
 _DISTANCE_AGREES = 0.01
 """Difference of a centre distance from that of the profile shifts, over the module, up to which both agree."""
+_LARGEST_SHIFT = 3.0
+"""Profile shift beyond which no tooth is cut: some 1 is the limit of pointed teeth, more only of many teeth."""
 _MOST_OVERLAP = 100
 """Lines of contact at a time on the mean, ten times those of the widest herringbones: all are held in memory."""
 
@@ -82,6 +84,8 @@ class GearModel(ElementModel):
             if self.torque is None:
                 raise problem("neither torque nor hertz_pressure given", 'one of them: torque = "30 N*m"')
             raise problem("both torque and hertz_pressure given", "one of them; delete the other")
+        if self.centre_distance is not None:
+            self._check_shifts(self.centre_distance)
         try:
             path = path_of_contact(self)
             if "profile_shifts" in self.model_fields_set and self.centre_distance is not None:
@@ -104,6 +108,20 @@ class GearModel(ElementModel):
                 more = f"{more}; with these teeth tip_diameters are usually {usual}"
             raise problem(f"{said}: below 1 the teeth lose each other", more)
         return self
+
+    def _check_shifts(self, distance: float) -> None:
+        """Refuse a centre distance that needs profile shifts which no teeth have."""
+        try:
+            shifts = self.shifts
+        except InputError:  # told with the path of contact
+            return
+        if max(map(abs, shifts)) > _LARGEST_SHIFT:
+            usual = 0.5 * self.module * sum(self.teeth) / math.cos(self.helix_angle)
+            raise problem(
+                f"centre_distance {with_unit(distance, 'm')} needs profile shifts of "
+                f"{' and '.join(f'{one:.3g}' for one in shifts)}",
+                f"shifts of {_LARGEST_SHIFT:g} at most; without shifts these gears stand {with_unit(usual, 'm')} apart",
+            )
 
     def _check_distance(self, given: float, path: Path) -> None:
         """Refuse profile shifts that do not give the centre distance to a hundredth of the module."""

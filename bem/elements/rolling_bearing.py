@@ -32,7 +32,7 @@ from bem.materials import contact_modulus
 from bem.quantities import si
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes.common import PositiveLength, PositivePressure, problem
-from bem.scenes.units import Angle, Force, Length, Number, Ratio, RotationSpeed
+from bem.scenes.units import Dimension, Force, Length, Number, Ratio, RotationSpeed
 
 _STEEL_DENSITY = 7800.0  # kg/m^3, of elements whose material says none
 USUAL_BALL_FRICTION = 0.0015
@@ -79,7 +79,7 @@ class BearingModel(ElementModel):
     contamination_factor: Annotated[Ratio, Field(ge=0, le=1)] | None = None
     reliability: Literal[90, 95, 96, 97, 98, 99] = 90
     profile: Literal["logarithmic", "straight"] = "logarithmic"
-    tilt: Annotated[Angle, Field(ge=0, lt=0.05)] = 0.0
+    tilt: Annotated[float, Dimension("rad", "an angle", "1 mrad"), Field(ge=0, lt=0.05)] = 0.0
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -347,3 +347,8 @@ def _load_sharing(model: BearingModel, shared: Sequence[float], pressed_out: flo
             "the outer ring and not in how the radial load is shared."
         )
     return tuple(said)
+
+
+def usual_ball_moment(model: BearingModel) -> float:
+    """Return the friction moment of a ball bearing by the usual estimate [N m]: of its radial load at the bore."""
+    return USUAL_BALL_FRICTION * model.load * 0.5 * model.bore

@@ -61,6 +61,15 @@ KAPPA_ABOVE_FILM = define(
         ),
     },
 )
+BALANCE_WITHOUT_SLIDING = define(
+    "balance-without-sliding",
+    CAUTION,
+    "The heat balance has only the rolling friction of the balls' films: with the usual friction moment of such "
+    "bearings it gives {celsius:.0f} °C.",
+    "0.0015 x load x bore / 2 is {usual:.3g} W where the films have {films:.3g} W; sliding within the curved contacts "
+    "and spin are missing.",
+    "Take film and lives as upper bounds, or give bulk_temperature.",
+)
 RATING_NOT_OF_GEOMETRY = define(
     "rating-not-of-geometry",
     CAUTION,

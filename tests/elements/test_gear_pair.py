@@ -463,3 +463,17 @@ def test_bodies_colder_than_the_oil_are_named():
     balanced = balance_heat(made(oil=oil, rms_roughness="500 nm",
                                  heat_balance={"conductance": "30 W/K", "ambient": "20 degC"}))  # fmt: skip
     assert not any(note.code == "bodies-colder-than-oil" for note in balanced.notes())
+
+
+def test_a_centre_distance_that_no_tooth_reaches_is_refused():
+    """The shift of each gear is named, and the distance without shifts."""
+    with pytest.raises(InputError, match=r"centre_distance 75 mm needs profile shifts of .*60 mm apart"):
+        made(centre_distance="75 mm", helix_angle="0 deg")
+
+
+def test_a_balance_beyond_the_oil_names_its_conductance():
+    """The temperature at which the secants stop is of no key of the file."""
+    oil = {"grade": "ISO VG 220", "temperature": "60 degC"}
+    element = made(oil=oil, rms_roughness="500 nm", heat_balance={"conductance": "0.01 W/K"})
+    with pytest.raises(InputError, match=r"heat_balance: with 0\.01 W/K friction warms the bodies beyond"):
+        balance_heat(element)

@@ -8,11 +8,11 @@ import pytest
 from scipy.integrate import quad
 
 from bem import CATALOGUE, InputError, contact_modulus
-from bem.elements.answer import friction_power
+from bem.elements.answer import answer_notes, balance_heat, friction_power
 from bem.elements.bearing_life import bearing_life, life_notes
 from bem.elements.element import element_template, load_element
 from bem.elements.rolling_bearing import BearingModel, _centrifugal, load_integral, share
-from bem.elements.running import Running
+from bem.elements.running import Running, run_all
 from bem.errors import Status
 from bem.notes import Level, has_code
 from bem.notes.checks import SLOPES_LARGE
@@ -267,3 +267,18 @@ def test_a_rating_that_is_not_of_these_dimensions_is_named():
     for diameter, told in (("1.19 mm", True), ("11.9 mm", False)):
         element = load_element(BALLS | {"diameter": diameter, "dynamic_load_rating": "32.5 kN"})
         assert has_code(life_notes(element, None), RATING_NOT_OF_GEOMETRY) is told
+
+
+def test_a_heat_balance_of_balls_says_what_friction_it_lacks():
+    """Balls slide within their curved contacts, which the films leave out."""
+    oil = {"grade": "ISO VG 46", "temperature": "70 degC"}
+    table = BALLS | {"oil": oil, "heat_balance": {"conductance": "1 W/K", "ambient": "25 degC"}}
+    element = balance_heat(load_element(table))
+    (run,) = run_all(element, most=1)[:1]
+    (note,) = [one for one in answer_notes(element, [run]) if one.code == "balance-without-sliding"]
+    usual = 0.0015 * 4000 * 0.02 * element.model.speed
+    assert note.values["usual"] == pytest.approx(usual)
+    films = note.values["films"]
+    assert note.values["celsius"] == pytest.approx(25 + (element.model.bulk_temperature - 298.15) * usual / films)
+    given = load_element(BALLS | {"oil": oil, "bulk_temperature": "70 degC"})
+    assert not any(one.code == "balance-without-sliding" for one in answer_notes(given, run_all(given, most=1)))
