@@ -51,6 +51,7 @@ from bem.notes.elements import (
     BUSH_FLOATS,
     BUSH_LEAKS,
     BUSH_LIQUID_LOST,
+    BUSH_ROUGHNESS_MISSING,
     BUSH_SWINGS,
     BUSH_TOUCHES,
     BUSH_WARMER_THAN_OIL,
@@ -72,7 +73,15 @@ FORMULA_FILMS = ("minimum_film [m]", "film_over_roughness")
 """Columns of films by the formula."""
 _OF_FILMS = (
     *(BUSH_LEAKS, BUSH_SWINGS, BUSH_FLOATS, BUSH_BOUNDS, BUSH_TOUCHES, BUSH_LIQUID_LOST, BUSH_WARMER_THAN_OIL),
-    *(BUSH_WEARS_IN_FILM, GLYCOL_ASSUMED, NO_HEAT, OIL_FOLLOWS_BALANCE, VISCOSITY_FIXED, SURFACES_TOUCH),
+    *(
+        BUSH_WEARS_IN_FILM,
+        BUSH_ROUGHNESS_MISSING,
+        GLYCOL_ASSUMED,
+        NO_HEAT,
+        OIL_FOLLOWS_BALANCE,
+        VISCOSITY_FIXED,
+        SURFACES_TOUCH,
+    ),
     FILM_BY_SQUEEZE,
 )
 """Notes that a scene of the dry contact has no use for."""
@@ -489,7 +498,7 @@ def scene_notes(element: Element, solved: Sequence[Running], kind: str) -> tuple
         return without(found, *_OF_FILMS)
     if kind in (*MIXED, LIFE):  # the run has the load share of asperities
         found = without(found, SURFACES_TOUCH, BUSH_TOUCHES)
-    found = without(found, BUSH_WEARS_IN_FILM)
+    found = without(found, BUSH_WEARS_IN_FILM, BUSH_ROUGHNESS_MISSING)
     return tuple(
         BUSH_FLOATS(**{**note.values, "reason": "beyond-scene"})
         if has_code([note], BUSH_FLOATS, reason="beyond")

@@ -21,6 +21,7 @@ from bem.notes import Note
 from bem.notes.elements import (
     BUSH_LIQUID_LOST,
     BUSH_OVER_LIMIT,
+    BUSH_ROUGHNESS_MISSING,
     BUSH_SWELLS,
     BUSH_TOUCHES,
     BUSH_WARMER_THAN_OIL,
@@ -223,8 +224,11 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
     temperature = model.bulk_temperature if power is None else bush_temperature(model, power)
     if temperature is not None:
         notes += _temperature_notes(model, film, temperature)
-    if film is not None and film.asperity_share < LEAST_ASPERITY_SHARE and model.specific_wear_rate:
-        notes.append(BUSH_WEARS_IN_FILM(share=film.asperity_share))
+    if film is not None and model.rms_roughness is None:
+        notes += _roughness_missing(model)
+    elif film is not None and film.asperity_share < LEAST_ASPERITY_SHARE and model.specific_wear_rate:
+        moves = "turns" if model.oscillation is None else "swings"
+        notes.append(BUSH_WEARS_IN_FILM(share=film.asperity_share, reason=moves))
     journal = None if film is None else journal_of(model, film)
     if film is not None and journal is not None:
         notes.append(
@@ -233,6 +237,14 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
     if film is not None and film.touching:
         notes.append(BUSH_TOUCHES(share=film.asperity_share, reason="solved" if film.solved else "estimated"))
     return tuple(notes)
+
+
+def _roughness_missing(model: PlainBushModel) -> list[Note]:
+    """Return a note on what hangs on the touching of surfaces whose roughness is not given; none where nothing does."""
+    wears = bool(model.specific_wear_rate)
+    if model.friction is None:
+        return [BUSH_ROUGHNESS_MISSING(reason="friction and wear" if wears else "friction")]
+    return [BUSH_ROUGHNESS_MISSING(reason="wear")] if wears else []
 
 
 def _temperature_notes(model: PlainBushModel, film: FilmOfBush | None, temperature: float) -> list[Note]:

@@ -91,7 +91,8 @@ def _bush(element: Element, model: PlainBushModel, runs: Sequence[Running], figu
         panels[1].plot(hours, 1e6 * depth, color="C0")
         panels[1].set_xlabel("time (h)")
         panels[1].set_ylabel("worn depth at the load line (um)")
-        if runs and max(one.asperity_share or 0.0 for one in runs) < LEAST_ASPERITY_SHARE:
+        shares = [one.asperity_share for one in runs if one.asperity_share is not None]
+        if shares and max(shares) < LEAST_ASPERITY_SHARE:
             panels[1].set_title("if the surfaces rub; here a film carries the load", fontsize="small")
         panels[1].set_xlim(left=0)
         panels[1].set_ylim(bottom=0)

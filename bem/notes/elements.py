@@ -331,8 +331,35 @@ BUSH_WEARS_IN_FILM = define(
     "bush-wears-in-film",
     CAUTION,
     "Wear and life are those of rubbing surfaces, but a film carries the load.",
-    "Asperities have {share:.1%} of the load.",
+    "",
     "Take the specific wear rate of starts and stops, or of a test in this lubricant at this lambda ratio.",
+    reasons={
+        "turns": "Asperities have {share:.1%} of the load.",
+        "swings": Reason(
+            "At the mean speed asperities have {share:.1%} of the load; wear arises at the turning points.",
+            "Take the specific wear rate of an oscillating test in this lubricant.",
+            headline="At the mean speed a film carries the load; the turning points wear.",
+        ),
+    },
+)
+BUSH_ROUGHNESS_MISSING = define(
+    "bush-roughness-missing",
+    CAUTION,
+    "Without rms_roughness it is not known whether shaft and bush touch.",
+    reasons={
+        "friction": Reason(
+            "",
+            "Friction and temperature hold only if a film carries the whole load; give rms_roughness of both together.",
+        ),
+        "friction and wear": Reason(
+            "",
+            "Friction, temperature and wear hold only if a film carries the whole load; give rms_roughness of both "
+            "together.",
+        ),
+        "wear": Reason(
+            "", "Take a specific wear rate measured in this lubricant, and give rms_roughness of both together."
+        ),
+    },
 )
 GLYCOL_ASSUMED = define(
     "glycol-assumed",

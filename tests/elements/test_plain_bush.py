@@ -30,6 +30,7 @@ from bem.notes.elements import (
     BUSH_LEAKS,
     BUSH_LIQUID_LOST,
     BUSH_OVER_LIMIT,
+    BUSH_ROUGHNESS_MISSING,
     BUSH_SWELLS,
     BUSH_SWINGS,
     BUSH_TOUCHES,
@@ -653,6 +654,33 @@ def test_wear_under_a_full_film_is_noted():
     assert BUSH_WEARS_IN_FILM.code not in codes(answer_notes(thin, run_all(thin)))
 
 
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({}, "friction"),
+        ({"specific_wear_rate": "1e-6 mm3/(N m)"}, "friction and wear"),
+        ({"friction": 0.1, "specific_wear_rate": "1e-6 mm3/(N m)"}, "wear"),
+        ({"friction": 0.1}, None),
+    ],
+)
+def test_without_roughness_no_film_is_said_to_carry_the_load(change, reason):
+    element = load_element(without(WATER, "rms_roughness") | {"thermal": "off"} | change)
+    notes = answer_notes(element, run_all(element))
+    assert BUSH_WEARS_IN_FILM.code not in codes(notes)
+    found = [note.values["reason"] for note in notes if note.code == BUSH_ROUGHNESS_MISSING.code]
+    assert found == [reason] * (reason is not None)
+    assert BUSH_ROUGHNESS_MISSING.code not in codes(scene_notes(element, run_all(element), "traction"))
+
+
+def test_a_swinging_bush_wears_where_it_turns_round():
+    oil = THIN | {"viscosity": "40 mPa*s"}
+    worn = without(WATER, "speed") | {"thermal": "off", "oil": oil, "specific_wear_rate": "1e-6 mm3/(N m)"}
+    element = load_element(worn | {"oscillation": {"amplitude": "45 deg", "frequency": "10 Hz"}})
+    (note,) = [one for one in all_notes(element, run_all(element)) if one.code == BUSH_WEARS_IN_FILM.code]
+    assert note.values["reason"] == "swings"
+    assert "turning points" in note
+
+
 def test_a_wall_is_a_layer_of_films_and_scenes(tmp_path):
     """The scene's pressure is that of the equivalent cylinder by harmonics, and its film thinner than without wall."""
     element = load_element(WATER)
@@ -775,6 +803,8 @@ def test_wear_and_life_in_words():
     assert rubs.get_title() == ""  # asperities carry a part of the load
     floats = [replace(one, asperity_share=0.001) for one in run_all(wet)]
     assert "a film carries the load" in element_figure(wet, floats).axes[1].get_title()
+    unknown = [replace(one, asperity_share=None) for one in floats]
+    assert element_figure(wet, unknown).axes[1].get_title() == ""
 
 
 def test_an_assumed_friction_is_that_on_steel():
