@@ -71,6 +71,17 @@ def read_map(surface: MeasuredSurface) -> Surface:
     return KEPT.of(key, read)
 
 
+def filtered(surface: MeasuredSurface, found: Surface) -> Surface:
+    """Return a map, as `read_map` gives it, without the wavelengths that the scene's filters remove."""
+    from bem.surfaces import high_pass, low_pass
+
+    if surface.low_pass is not None:
+        found = low_pass(found, surface.low_pass)
+    if surface.high_pass is not None:
+        found = high_pass(found, surface.high_pass)
+    return found
+
+
 def height_unit_note(where: str, rms_height: float, rms_slope: float) -> Note | None:
     """Return the note on a map whose heights are probably in another unit; None of others. rms_height : Sq [m]."""
     doubt = height_unit_doubt(rms_height, rms_slope)
@@ -157,9 +168,8 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
         MirrorWarning,
         close_seams,
         detrend,
-        high_pass,
-        low_pass,
         mirror_to_periodic,
+        resample,
         scale_to_rms,
     )
 
@@ -175,10 +185,7 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
         note(MAP_ALTERED(name, points=spikes, reason="spikes"))
     elif surface.despike is not None:
         note(MAP_ALTERED(name, threshold=surface.despike, reason="no-spikes"))
-    if surface.low_pass is not None:
-        found = low_pass(found, surface.low_pass)
-    if surface.high_pass is not None:
-        found = high_pass(found, surface.high_pass)
+    found = filtered(surface, found)
     whole = found.lengths
     axes = (surface.mirror in ("x", "both"), surface.mirror in ("y", "both"))
     odd = [n for n, mirrored in zip(grid.shape, axes, strict=True) if mirrored and n % 2]
@@ -188,7 +195,8 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     same = found.shape == part.shape and np.allclose(found.spacing, part.spacing, rtol=1e-9, atol=0)
     if not same:
         centre = (0.0, 0.0) if surface.crop is not None else surface.centre
-        resampled = _resampled(found, part, centre, name)
+        _check_covered(found.lengths, grid, centre, axes, name)
+        resampled = resample(found, part, centre=centre)
         found = resampled.replace(detrend(resampled.heights, part.spacing, surface.detrend))
     if any(axes):
         with warnings.catch_warnings():
@@ -240,15 +248,24 @@ _WHOLE = 0.95
 """Share of the map's area from which it is called the map: cells at the ends may be left out for even numbers."""
 
 
-def _resampled(found: Surface, grid: Grid, centre: tuple[float, float], name: str) -> Surface:
-    """A map on the cells of a grid; one that is too small is said of its file, in keys of scenes."""
-    from bem.surfaces import resample
-
-    try:
-        return resample(found, grid, centre=centre)
-    except InputError as error:
-        said = [
-            text.removeprefix("resample: ").replace("mirror_to_periodic first", 'mirror = "both" in its surface')
-            for text in error.messages
-        ]
-        raise InputError([f"{name}: {text}" for text in said]) from None
+def _check_covered(
+    lengths: tuple[float, float], grid: Grid, centre: tuple[float, float], axes: tuple[bool, bool], name: str
+) -> None:
+    """Refuse a grid that reaches beyond a map of these lengths [m], which is mirrored along `axes`."""
+    messages, remedies = [], []
+    for axis, (length, middle, mirrored) in enumerate(zip(lengths, centre, axes, strict=True)):
+        copies = 1 + mirrored
+        longest = copies * (length - 2 * abs(middle))
+        side = grid.lengths[axis]
+        if side <= longest * (1 + 1e-9):
+            continue
+        around = f" around {si(middle, 'm', 6)}" if middle else ""
+        kind = "mirrored map only" if mirrored else "map only"
+        messages.append(
+            f"the grid is {si(side, 'm', 6)} long along {'xy'[axis]}{around}, the {kind} {si(copies * length, 'm', 6)}"
+        )
+        inside = f"{si(longest, 'm', 6)} or less along {'xy'[axis]}" if longest > 0 else "a centre inside the map"
+        helps = not mirrored and side <= 2 * longest
+        remedies.append(inside + (f', or mirror = "{"xy"[axis]}" or "both" in its surface' if helps else ""))
+    if messages:
+        raise InputError(f"{name}: {'; '.join(messages)}; use {' and '.join(remedies)}")

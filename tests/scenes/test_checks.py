@@ -1070,11 +1070,11 @@ def test_every_check_has_its_two_tests():
 
 @pytest.mark.internal
 def test_a_map_smaller_than_the_grid_is_refused_by_the_plan(maps):
-    with pytest.raises(InputError) as refused:  # of the half that is mirrored
+    with pytest.raises(InputError) as refused:
         scene_warnings(facts_of(on_map(maps / "whole.npz", "1 mm")))
     (message,) = refused.value.messages
-    assert "the grid is 500 um long along x, the map only 64 um; " in message
-    assert 'mirror = "both" in its surface' in message
+    assert "the grid is 1 mm long along x, the mirrored map only 128 um; " in message
+    assert message.endswith("use 128 um or less along x and 128 um or less along y")
 
 
 @pytest.mark.internal

@@ -8,7 +8,7 @@ import pytest
 from bem.campaigns.collect import outcome_of
 from bem.errors import InputError, Status, SurfaceFileError
 from bem.notes import has_code
-from bem.notes.scenes import MAP_ALTERED
+from bem.notes.scenes import HEIGHT_UNIT_DOUBTFUL, MAP_ALTERED
 from bem.runs import plan_scene
 from bem.scenes import PlainContext, get_kind
 from bem.scenes.checks import examine, scene_warnings
@@ -153,6 +153,53 @@ def test_mirrored_grid_is_twice_the_map_and_has_no_seam(plain_map):
 def test_a_grid_larger_than_the_map_is_refused(plain_map):
     with pytest.raises(InputError, match="the map"):
         run(scene(plain_map), ["grid.shape=64", "grid.spacing=1 um"])
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize(
+    ("mirror", "side", "said"),
+    [
+        ("none", 64, 'the map only 40 um; use 40 um or less along x, or mirror = "x" or "both" in its surface'),
+        ("none", 100, "the map only 40 um; use 40 um or less along x"),
+        ("y", 100, "the map only 40 um; use 40 um or less along x"),
+        ("both", 100, "the mirrored map only 80 um; use 80 um or less along x"),
+    ],
+)
+def test_a_grid_longer_than_a_map_is_told_the_longest(plain_map, mirror, side, said):
+    """A mirrored map was told of half the grid, and to be mirrored."""
+    data = scene(plain_map)
+    data["lower"]["surface"]["mirror"] = mirror
+    with pytest.raises(InputError) as caught:
+        run(data, [f"grid.shape=[{side}, 32]", "grid.spacing=1 um"])
+    assert list(caught.value.messages) == [f"map.npz: the grid is {side} um long along x, {said}"]
+
+
+@pytest.mark.internal
+def test_particles_take_the_keys_of_their_map(tmp_path):
+    """Spacing and height unit of the table `map` were not read: the run refused what its plan had accepted."""
+    heights = np.zeros((60, 50))
+    heights[10:15, 20:30] = 100  # nm
+    heights[40:44, 5:9] = 120
+    heights[50, 40] = 4000
+    np.savetxt(tmp_path / "plate.txt", heights)
+    table = {"path": str(tmp_path / "plate.txt"), "spacing": ["20 nm", "25 nm"], "height_unit": "nm"}
+
+    def found(**more):
+        resolved, _ = plan_scene({"kind": "particles", "map": table | more, "separation": {"background": "none"}})
+        kind = get_kind("particles")
+        context = PlainContext(resolved.seed)
+        return outcome_of(resolved, kind.run(resolved, context)), context.notes
+
+    outcome, notes = found()
+    assert outcome.variables["particle_volume"].values == pytest.approx([2.5e-21, 0.96e-21, 2e-21], rel=1e-9, abs=0)
+    assert not has_code(notes, HEIGHT_UNIT_DOUBTFUL)
+    assert found(crop=["1.2 um", "400 nm"])[0].summary["count"] == 1
+    for wrong in ({"mirror": "x"}, {"detrend": "curvature"}, {"rms_height": "50 nm"}):
+        with pytest.raises(InputError, match="particles"):
+            found(**wrong)
+    metres, doubts = found(height_unit=None)
+    assert metres.summary["count"] == 3
+    assert has_code(doubts, HEIGHT_UNIT_DOUBTFUL)
 
 
 @pytest.mark.internal

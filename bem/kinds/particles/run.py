@@ -12,6 +12,7 @@ from bem.kinds.particles.record import ParticlesRecord
 from bem.kinds.particles.scene import ParticlesScene
 from bem.notes.scenes import MAP_SYNTHETIC
 from bem.scenes.context import Context, error_bars
+from bem.scenes.maps import filtered, height_unit_note, read_map
 from bem.scenes.records import columns
 
 
@@ -22,10 +23,14 @@ def _map(scene: ParticlesScene, context: Context) -> tuple[FloatArray, tuple[flo
         made = synthetic_afm_map(seed=context.seed("map"), **scene.synthetic.model_dump())
         context.note(MAP_SYNTHETIC())
         return made.heights, made.spacing
-    from bem.surfaces import read_surface
+    from bem.surfaces.read import slope_in_metres
 
     assert scene.map is not None
-    surface = read_surface(scene.map.path, detrend="none", fill=scene.map.fill)
+    measured = scene.map.model_copy(update={"detrend": "none"})  # separation.background removes the plate's form
+    surface = filtered(measured, read_map(measured))
+    steep = slope_in_metres(surface) if measured.height_unit is None else None
+    if steep is not None and (note := height_unit_note("map", float(surface.heights.std()), steep)) is not None:
+        context.note(note)
     return surface.heights, surface.spacing
 
 

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import Literal
 
+from pydantic import field_validator
+
 from bem.kinds.particles.tables import ArchardScene, SedimentationScene, SeparationScene, SyntheticMapScene
 from bem.scenes.common import MeasuredSurface, OutputsScene, SceneModel, one_of
 from bem.scenes.keys import key
+from bem.scenes.table import problem
 
 
 class ParticlesScene(SceneModel):
@@ -31,3 +34,17 @@ class ParticlesScene(SceneModel):
     )
 
     _one_map = one_of("map", "synthetic")
+
+    @field_validator("map")
+    @classmethod
+    def _as_measured(cls, table: MeasuredSurface | None) -> MeasuredSurface | None:
+        """Refuse keys of a rough surface that would change particles or are left to the table separation."""
+        if table is None:
+            return None
+        if table.detrend == "curvature":
+            raise problem('detrend = "curvature" has no effect on particles', 'separation.background = "curvature"')
+        if table.mirror != "none":
+            raise problem("a mirrored map would count particles twice", 'no mirror, or mirror = "none"')
+        if table.rms_height is not None:
+            raise problem("rms_height would scale the particles", "no rms_height; heights as measured")
+        return table
