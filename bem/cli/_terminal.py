@@ -408,6 +408,21 @@ def show_remarks(notes: Sequence[str]) -> None:
             print_text(f"  {note}")
 
 
+def _of_rows(text: str, rows: Sequence[str]) -> str:
+    """Return the text of a note on missing error bars with the figures of a table's rows alone; "" if it names none.
+
+    A note that names its first figures only stays as it is.
+    """
+    from bem.notes.note import joined
+
+    found = re.fullmatch(r"(.*?No error bars for )(.*?)(\. .*)", text, re.DOTALL)
+    if found is None or re.search(r" and \d+ more$", found[2]):
+        return text
+    names = [name for part in found[2].split("; ") for name in (part, *re.split(r", | and ", part))]
+    named = [row for row in dict.fromkeys(rows) if row in names]
+    return found[1] + joined(named) + found[3] if named else ""
+
+
 def print_numbers(summary: Mapping[str, Any], headline: Sequence[str], lines: Mapping[str, str] | None = None) -> None:
     """Print the figures of a run.
 
@@ -426,10 +441,11 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str], lines: Ma
     rows.append(("time", f"{summary['wall_time_s']:.1f} s"))
     table(("figure", "value"), rows, title=f"{summary['scene']} ({summary['kind']})")
     lost = any(note["code"] == ERROR_BARS_LOST.code for note in of_summary(summary))  # says why of all of them
-    if not lost and any(value.endswith(NO_BAR) for _, value in rows):
+    barless = [name for name, value in rows if value.endswith(NO_BAR)]
+    if not lost and barless:
         for note in of_summary(summary):
-            if note["code"] == NO_ERROR_BAR.code:
-                print_text(note["text"])
+            if note["code"] == NO_ERROR_BAR.code and (text := _of_rows(note["text"], barless)):
+                print_text(text)
     print_lists(summary, known)
     if summary.get("combined_Sdq") is not None and any(f"{name}_error" in summary for name in known):
         print_text("± is the numerical error; how figures scatter from place to place of the surface is not in it.")

@@ -104,7 +104,8 @@ NO_ERROR_BAR = define(
             "shortest waves have some nine cells."
         ),
         NoBar.SCALED_FILM: (
-            "The film is thinner than its cells can show; scaled minima were a third to twenty times the solved one."
+            "The film is extrapolated from a smaller load: such minima were up to 20 times too large, or a third of "
+            "the solved one."
         ),
         NoBar.REPEATED_CELL: "The error of a cell that repeats is not known; compare with half the spacing.",
         NoBar.FEW_PARTICLES: "There are fewer than two particles.",

@@ -160,9 +160,10 @@ POINT_FILM_SCALED = define(
         "thin": Reason(
             "It is thinner than the cells of its mesh can show. It is scaled from the largest load whose film was "
             "solved, by Hertz' pressure and the fit of Nijenbanning, Venner and Moes: 12 % too thick at 2.5 times that "
-            "load, up to 40 % at 6 times; its minimum is not to be used{factors}.",
+            "load, up to 40 % at 6 times; its minimum is not to be used, up to 20 times too large or a third of the "
+            "solved one{factors}.",
             "Set more film.cells: a finer mesh solves films under larger loads.",
-            headline="The film is extrapolated in load; its minimum and lambda are unknown.",
+            headline="The film is extrapolated from a smaller load; minimum and lambda are unknown.",
         ),
         "layer": Reason(
             "No film of a thin layer of oil was found under so light a load; pressure goes on as Hertz', and the film"

@@ -154,6 +154,20 @@ def test_a_figure_without_an_error_bar_has_the_reason_below_the_table(capsys):
         assert " ".join(capsys.readouterr().out.split()).count(why["text"]) == count
 
 
+def test_reasons_below_the_table_name_its_rows_alone(capsys):
+    """A curve named the friction with the oil of the loaded zone, which no row of the terminal has."""
+    notes = [
+        no_error_bar(["friction", "loaded_friction"], NoBar.FREE_EDGE).as_dict(),
+        no_error_bar(["loaded_contact_load"], NoBar.OF_KIND, why="they are for comparison").as_dict(),
+    ]
+    known = {"status": "converged", "wall_time_s": 1.0, "scene": "s", "kind": "friction", "notes": notes}
+    print_numbers(known | {"friction": 0.1, "friction_error": None}, ["friction"])
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "No error bars for friction coefficient. The contact reaches" in shown
+    assert "loaded zone" not in shown
+    assert "comparison" not in shown
+
+
 WEAR = {
     "kind": "wear",
     "lower": {

@@ -7,9 +7,12 @@ import pytest
 from mixed_case import mixed_case
 
 from bem import Lubricant, solve_mixed
+from bem.accuracy.bars import ErrorBars
 from bem.friction.result_notes import MATTERS, oil_on_contact_notes
+from bem.kinds.friction.errors import notes_of_bars
 from bem.kinds.friction.record import CurveRecord
 from bem.notes import Level
+from bem.notes.accuracy import NoBar, named
 from bem.notes.friction import OIL_ON_CONTACT
 from bem.notes.lubrication import INLET_FRICTION
 from bem.scenes.lubrication import notes_of_balance
@@ -93,3 +96,13 @@ def test_the_inlet_s_note_is_of_the_printed_friction_coefficient():
 def test_what_has_no_error_bar_is_named_as_a_second_balance():
     (figure,) = get_type_hints(CurveRecord, include_extras=True)["loaded_friction"].__metadata__
     assert "a second balance, which counts the oil over another area" in figure.no_bar
+
+
+def test_missing_bars_of_an_extrapolated_film_are_said_once_and_by_the_names_of_the_table():
+    """Two notes gave one reason, of the lambda ratio and of a minimum that the table does not have."""
+    bars = ErrorBars().without("lambda_ratio", NoBar.SCALED_FILM).without("minimum_film", NoBar.SCALED_FILM)
+    (note,) = notes_of_bars(bars)
+    assert set(note.values["figures"]) == set(
+        named(["lambda_ratio", "minimum_film_whole", "minimum_film", "lambda_ratio_mixed"])
+    )
+    assert "up to 20 times too large, or a third" in note

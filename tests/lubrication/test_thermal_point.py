@@ -24,9 +24,10 @@ from bem.friction.smooth import PointContact
 from bem.lubrication.inlet_heating import InletHeating
 from bem.lubrication.thermal import lumped_point
 from bem.lubrication.thermal.bodies import moving_bodies
-from bem.lubrication.thermal.lumped_point import find_oil_thinning, point_heat
+from bem.lubrication.thermal.lumped_point import add_heat, find_oil_thinning, point_heat
 from bem.lubrication.thermal.model import FilmHeat
 from bem.notes import has_code
+from bem.notes.friction import POINT_FILM_SCALED
 from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT, VISCOSITY_EXTRAPOLATED
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -222,3 +223,15 @@ def test_films_with_heat_are_continuous_in_the_load():
         for load in (middle * (1 - 1e-6), middle * (1 + 1e-6))
     )
     assert more == pytest.approx(less, rel=1e-4)
+
+
+@pytest.mark.internal
+def test_the_hottest_oil_of_a_film_extrapolated_in_load_is_not_judged(long, monkeypatch):
+    """A ball in pure rolling, its oil 3 K warmer in the mean, was told of oil above 130 degC at places not solved."""
+    judged = []
+    monkeypatch.setattr(lumped_point, "notes_of_heat", lambda _, hottest: judged.append(hottest) or ())
+    axes = ellipse_contact(radii=LONG.radii, contact_modulus=MODULUS, load=40.0).semi_axes
+    scaled = replace(long, notes=(POINT_FILM_SCALED(reason="thin", factors=""),))
+    made = [add_heat(film, OIL, (STEEL, STEEL), axes, InletHeating(1.0, 0.0, False), 0.0) for film in (long, scaled)]
+    assert judged[0] == pytest.approx(made[0].maximum_temperature)
+    assert made[1].mean_temperature <= judged[1] < judged[0]

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from bem.accuracy.bars import POINTS, ErrorBars
 from bem.errors import Status
 from bem.grid import FloatArray
+from bem.notes import Note
+from bem.notes.accuracy import NO_ERROR_BAR, named, one_note_per_cause
 from bem.scenes.context import Context
 from bem.scenes.resolutions import CELLS, counted, of_either
 
@@ -25,6 +27,29 @@ def bars_of(setup: MixedSetup, height: FloatArray, solution: MixedSolution, cont
     with context.timer("error bars"):
         return mixed_bars(case, solve_coarser_mixed(case))
 
+
+def notes_of_bars(bars: ErrorBars) -> tuple[Note, ...]:
+    """Return the notes on the bars of one speed, one of each cause.
+
+    A minimum film follows from a lambda ratio, or the ratio from the minimum: both have no bar for the same reason.
+    """
+    found = []
+    for note in bars.notes:
+        if note.code == NO_ERROR_BAR.code:
+            figures = [name for one in note.values["figures"] for name in _FOLLOWING.get(one, (one,))]
+            note = NO_ERROR_BAR(note.where, level=note.level, **{**note.values, "figures": figures})
+        found.append(note)
+    return tuple(one_note_per_cause(found))
+
+
+_FOLLOWING = {
+    first: (first, second)
+    for first, second in (
+        named(["lambda_ratio", "minimum_film_whole"]),
+        named(["minimum_film", "lambda_ratio_mixed"]),
+    )
+}
+"""Figures, in words, and what follows from them."""
 
 _LINE, _POINT = counted("film.points", POINTS, 400, 20000), counted("film.cells", POINTS, 64, 512)
 

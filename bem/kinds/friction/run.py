@@ -12,7 +12,7 @@ import numpy as np
 from bem.accuracy.bars import table
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
-from bem.kinds.friction.errors import bars_of
+from bem.kinds.friction.errors import bars_of, notes_of_bars
 from bem.kinds.friction.record import CurveRecord
 from bem.kinds.friction.scene import FrictionScene
 from bem.kinds.friction.uncertain import InputEnds, over_speeds
@@ -63,7 +63,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
         if scene.outputs.errors:
             bars = _bars(setup, height, own, flattened, context)
             errors.append(table(bars.values, bars.parts, RULES, ORIGINS))
-            notes += bars.notes
+            notes += notes_of_bars(bars)
         if ends is not None:
             converged = own.status is Status.CONVERGED
             with context.timer("uncertain inputs"):

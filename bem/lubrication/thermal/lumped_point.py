@@ -30,6 +30,7 @@ from bem.lubrication.thermal.inlet_thinning import FACTOR_TOLERANCE, find_thinni
 from bem.lubrication.thermal.lumped_energy import Channel, film_temperatures
 from bem.materials import Body
 from bem.notes import without
+from bem.notes.friction import POINT_FILM_SCALED
 from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT
 from bem.threads import one_blas_thread
 
@@ -129,8 +130,9 @@ def add_heat(
     middle = np.zeros((2, *film.pressure.shape))
     middle[0] = heat.stress
     weights = film.pressure / film.pressure.sum()
-    hottest = max(float(heat.temperature.max()), float(heat.surfaces.max()))
     mean = float((weights * heat.temperature).sum())
+    scaled = any(note.code == POINT_FILM_SCALED.code for note in film.notes)  # its thinnest places are not known
+    hottest = max(mean if scaled else float(heat.temperature.max()), float(heat.surfaces.max()))
     rise = mean - float(lubricant.temperature or 0.0)
     notes = without(film.notes, HEAT_LEFT_OUT)
     right = heat.residual <= RESIDUAL and deviation <= FACTOR_TOLERANCE
