@@ -1,4 +1,4 @@
-"""Figures of an adhesive contact that its pressure alone does not give.
+"""Figures of an adhesive contact that its pressure alone does not give, and whether its path passes the pull-off.
 
 Verified in tests/adhesion/test_adhesive_bars.py.
 """
@@ -6,6 +6,10 @@ Verified in tests/adhesion/test_adhesive_bars.py.
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bem.grid import FloatArray
 
 if TYPE_CHECKING:
     from bem.adhesion.laws import AdhesionLaw
@@ -19,3 +23,16 @@ def mean_contact_traction(state: AdhesiveSolution, law: AdhesionLaw) -> float:
     """
     area = float(state.contact.contact_area)
     return state.contact.load / area - law.strength if area > 0 else 0.0
+
+
+def passes_pull_off(load: FloatArray, approach: FloatArray, contact_area: FloatArray) -> bool:
+    """Return True if the lowest load of a path is minus the pull-off force.
+
+    Bodies that have touched are then pulled further apart from the state of the lowest load, under a tension that
+    falls or ends with a jump. A path that turns back before, or ends, has not reached the pull-off. Under a prescribed
+    load no state lies beyond the pull-off.
+    load : [N], negative in tension; approach : [m]; contact_area : [m^2]; (n,) over the steps of the path.
+    """
+    lowest = int(np.argmin(load))
+    touched = bool(np.any(contact_area[: lowest + 1] > 0))
+    return touched and lowest + 1 < len(load) and bool(load[lowest] < 0 and approach[lowest + 1] < approach[lowest])

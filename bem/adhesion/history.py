@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.adhesion.figures import passes_pull_off
 from bem.adhesion.laws import AdhesionLaw
 from bem.adhesion.solve import AdhesiveSolution, solve_adhesive_contact
 from bem.convolution import DisplacementOperator
@@ -52,6 +53,11 @@ class AdhesiveHistory:
     def lowest_load(self) -> float:
         """Return the lowest load of the path [N]: minus the pull-off force, where the path passes it."""
         return float(self.load.min())
+
+    @property
+    def passes_pull_off(self) -> bool:
+        """Return True if the lowest load of the path is minus the pull-off force; see `bem.adhesion.figures`."""
+        return passes_pull_off(self.load, self.approach, self.contact_area)
 
 
 def follow_path(

@@ -190,6 +190,13 @@ PULL_OFF_OF_RANGE = define(
     " is numerical.",
     "Run two ranges of adhesion that are likely.",
 )
+PULL_OFF_NOT_REACHED = define(
+    "pull-off-not-reached",
+    INFO,
+    "The bodies did not part on the path: the pull-off force is larger than its lowest load.",
+    "The lowest load of the path is {lowest:si N}{limits}.",
+    "For the pull-off force prescribe an approach, with an approach_path that ends with the bodies apart.",
+)
 ADHESION_JUMPS = define(
     "adhesion-jumps",
     INFO,

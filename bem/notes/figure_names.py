@@ -25,7 +25,7 @@ FIGURE_NAMES: dict[str, str] = {
     "share_of_lower": "share of the heat that enters the lower body",
     "load_over_hertz": "load over that of an asperity alone",
     "load_over_hertz_finite_array": "load over that of an asperity alone, of a finite array",
-    "lowest_load": "pull-off force (lowest load)",
+    "lowest_load": "lowest load of the path",
     "jkr_lowest_load": "pull-off force by JKR (soft spheres)",
     "dmt_lowest_load": "pull-off force by DMT (stiff spheres)",
     "tabor_parameter": "Tabor's parameter",

@@ -56,10 +56,30 @@ def words_of(name: str, summary: Mapping[str, Any]) -> str:
     """Return the name of a figure in words.
 
     In rolling contact the force over the load is called traction coefficient; it is less than the friction coefficient
-    of the scene where the contact sticks in part.
+    of the scene where the contact sticks in part. The lowest load of an adhesive path is a pull-off force only where
+    the bodies part, and pressures of an adhesive contact are repulsion alone.
     """
-    rolls = summary.get("kind") == "rolling" and name == "traction_coefficient"
-    return "traction coefficient, force over load" if rolls else name_and_unit(name)[0]
+    if summary.get("kind") == "rolling" and name == "traction_coefficient":
+        return "traction coefficient, force over load"
+    if name == "lowest_load_N":
+        return _LOWEST_LOADS.get(summary.get("lowest_load_is"), name_and_unit(name)[0])
+    if "mean_contact_traction_Pa" in summary and name in _REPULSIONS:
+        return f"{_REPULSIONS[name]} (attraction not subtracted)"
+    return name_and_unit(name)[0]
+
+
+_LOWEST_LOADS: dict[Any, str] = {
+    "pull-off": "pull-off force (lowest load of the path)",
+    "in contact": "lowest load of the path (the bodies did not part: the pull-off force is larger)",
+    "mixed": "lowest load of the path (the pull-off force only where the bodies parted)",
+}
+"""Names of the lowest load of an adhesive path by `lowest_load_is` of a summary."""
+_REPULSIONS = {
+    "mean_contact_pressure_Pa": "mean repulsion in the contact",
+    "max_pressure_Pa": "max repulsion in the contact",
+    "max_pressure_of_cells_Pa": "max repulsion of a cell",
+}
+"""Names of pressures in an adhesive contact, beside which attraction acts at the same place."""
 
 
 def reported_mean(name: str, summary: Mapping[str, Any]) -> str:

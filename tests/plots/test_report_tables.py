@@ -139,7 +139,7 @@ def test_a_figure_below_its_error_is_told_as_on_the_terminal_and_in_tables():
         "force across": "0 ± 130 mN",
         "interface max tension": "0.3625 (0 to 6.66) MPa",
         "layer max tension": "0 (0 to 850) kPa",
-        "pull-off force (lowest load)": "1 ± 3 µN",
+        "lowest load of the path": "1 ± 3 µN",
         "plastic area fraction": "0 (0 to 2) %",
         "energy": "0 J",
     }

@@ -20,8 +20,10 @@ from bem.notes.contact import (
     ADHESIVE_ZONE_UNRESOLVED,
     CONTACT_UNRESOLVED,
     LINE_APPROACH,
+    PULL_OFF_NOT_REACHED,
     PULL_OFF_OF_RANGE,
 )
+from bem.plots.tables import words_of
 from bem.reference_solutions.hertz import cylinder_contact, sphere_contact
 from bem.reference_solutions.westergaard import crossed_full_contact_pressure
 from bem.relaxation import PronySeries
@@ -567,6 +569,31 @@ def test_a_sphere_has_the_limits_of_its_pull_off_force_beside_it():
     )
     (note,) = [one for one in context.notes if one.code == PULL_OFF_OF_RANGE.code]
     assert note.values["jkr"] < note.values["dmt"]
+
+
+@pytest.mark.parametrize(
+    ("path", "end", "known"),
+    [
+        ({"approach_path": ["-1 um", "0.4 um", "0 um", "-0.2 um"], "approach": "-0.4 um"}, "apart", "pull-off"),
+        ({"approach_path": ["-1 um", "0.4 um"], "approach": "0 um"}, "in contact", "in contact"),
+        ({"approach_path": ["0.4 um", "0 um"], "approach": "0.4 um"}, "in contact", "in contact"),
+        ({"load_path": ["20 uN", "-5 uN"], "load": "5 uN"}, "in contact", "in contact"),
+    ],
+)
+def test_the_lowest_load_of_a_path_is_a_pull_off_force_only_once_the_bodies_part(path, end, known):
+    data = copy.deepcopy(ADHESIVE)
+    data["contact"] = {"adhesion": data["contact"]["adhesion"], **path}
+    _, outcome, context = run(data)
+    summary = outcome.summary
+    assert summary["lowest_load_N"] < 0
+    assert (summary["contact_area_m2"] > 0) == (end == "in contact")
+    assert summary["lowest_load_is"] == known
+    words = words_of("lowest_load_N", summary)
+    assert words.startswith("pull-off force" if known == "pull-off" else "lowest load of the path (the bodies did not")
+    assert has_code(context.notes, PULL_OFF_OF_RANGE) == (known == "pull-off")
+    assert has_code(context.notes, PULL_OFF_NOT_REACHED) == (known != "pull-off")
+    assert words_of("mean_contact_pressure_Pa", summary).startswith("mean repulsion in the contact")
+    assert words_of("mean_contact_pressure_Pa", {}) == "mean contact pressure"
 
 
 def test_all_error_bars_lost_to_an_unsolved_coarser_grid_are_one_caution():

@@ -12,7 +12,8 @@ from bem.kinds.contact.response import Response
 from bem.kinds.contact.scene import ContactScene
 from bem.kinds.contact.solve import adhesion_tolerance
 from bem.notes import Note
-from bem.notes.contact import ADHESION_ENDS_APART, ADHESION_JUMPS, PULL_OFF_OF_RANGE
+from bem.notes.contact import ADHESION_ENDS_APART, ADHESION_JUMPS, PULL_OFF_NOT_REACHED, PULL_OFF_OF_RANGE
+from bem.quantities import si
 from bem.reference_solutions.adhesive_sphere import dmt_pull_off_force, jkr_pull_off_force, tabor_parameter
 from bem.scenes import build
 from bem.scenes.context import Context
@@ -64,11 +65,11 @@ class AdhesiveResponse(Response):
             "adhesive_energy": path.last.energy,
             "mean_contact_traction": mean_contact_traction(path.last, law),
         }
-        shape = scene.shape
-        if shape.kind == "sphere" and shape.radius is not None:
+        shape, forces = scene.shape, pull_off_forces(scene)
+        if forces is not None and shape.radius is not None:
             found |= {
-                "jkr_lowest_load": -jkr_pull_off_force(law.work, shape.radius),
-                "dmt_lowest_load": -dmt_pull_off_force(law.work, shape.radius),
+                "jkr_lowest_load": -forces[0],
+                "dmt_lowest_load": -forces[1],
                 "tabor_parameter": tabor_parameter(law.work, shape.radius, build.modulus_of(scene), law.range),
             }
         return found | {"lowest_load": path.lowest_load} if len(path.load) > 1 else found
@@ -108,6 +109,15 @@ def ends_apart(path: AdhesiveHistory) -> bool:
     return bool(path.contact_area.any() and not path.contact_area[-1])
 
 
+def pull_off_forces(scene: ContactScene) -> tuple[float, float] | None:
+    """Return the pull-off forces of a sphere by Johnson, Kendall and Roberts and by Derjaguin, Muller and Toporov [N];
+    None of other shapes."""
+    law, shape = scene.contact.adhesion, scene.shape
+    if law is None or shape.kind != "sphere" or shape.radius is None:
+        return None
+    return jkr_pull_off_force(law.work, shape.radius), dmt_pull_off_force(law.work, shape.radius)
+
+
 def zone_is_resolved(scene: ContactScene, grid: Grid) -> bool:
     """Return True if the cells resolve the adhesive zone, and without adhesion."""
     law = scene.contact.adhesion
@@ -122,10 +132,14 @@ def adhesion_notes(scene: ContactScene, grid: Grid, path: AdhesiveHistory) -> tu
     if path.jumped.any():
         first = int(path.jumped.argmax())
         notes.append(ADHESION_JUMPS(jumps=int(path.jumped.sum()), load=float(path.load[first]), steps=len(path.load)))
-    shape = scene.shape
-    if len(path.load) > 1 and path.lowest_load < 0 and shape.kind == "sphere" and shape.radius is not None:
-        jkr, dmt = jkr_pull_off_force(law.work, shape.radius), dmt_pull_off_force(law.work, shape.radius)
-        notes.append(PULL_OFF_OF_RANGE(range=law.range, jkr=jkr, dmt=dmt))
+    if len(path.load) > 1 and path.lowest_load < 0:
+        forces = pull_off_forces(scene)
+        if not path.passes_pull_off:
+            limits = "" if forces is None else "; a sphere comes off between {} (JKR) and {} (DMT)"
+            limits = limits.format(*(si(force, "N") for force in forces or ()))
+            notes.append(PULL_OFF_NOT_REACHED(lowest=path.lowest_load, limits=limits))
+        elif forces is not None:
+            notes.append(PULL_OFF_OF_RANGE(range=law.range, jkr=forces[0], dmt=forces[1]))
     if ends_apart(path):
         notes.append(ADHESION_ENDS_APART(lowest=path.lowest_load, area=float(path.contact_area.max())))
     return tuple(notes)

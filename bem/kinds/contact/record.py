@@ -37,7 +37,10 @@ class ContactRecord(GridRecord, WheelRailRecord):
     """A solved contact, and the stresses below it where they are asked for."""
 
     lowest_load: Annotated[
-        float | None, Figure("N", "lowest load on the path; minus the pull-off force", optional=True, headline=True)
+        float | None,
+        Figure(
+            "N", "lowest load on the path; minus the pull-off force if the bodies part", optional=True, headline=True
+        ),
     ] = None
     jkr_lowest_load: Annotated[
         float | None, _sphere("N", "minus the pull-off force of a sphere by Johnson, Kendall and Roberts (soft)")
@@ -228,7 +231,23 @@ class ContactRecord(GridRecord, WheelRailRecord):
 
 
 def summarise(scene: ContactScene, axes: Any, records: Sequence[ContactRecord | None]) -> dict[str, Any]:
-    """Return the names of the layers, outermost first, where a case has stresses by layer."""
-    if not any(record is not None and record.layer_max_von_mises is not None for record in records):
-        return {}
-    return {"layer_material": list(layer_names(scene.stressed()[0]))}
+    """Return the names of the layers, outermost first, where a case has stresses by layer, and what the lowest load of
+    an adhesive path is: "pull-off", "in contact" where the bodies did not part, or "mixed" over the cases."""
+    found: dict[str, Any] = {}
+    if any(record is not None and record.layer_max_von_mises is not None for record in records):
+        found["layer_material"] = list(layer_names(scene.stressed()[0]))
+    parted = {_passes_pull_off(one) for one in records if one is not None and one.lowest_load is not None}
+    if parted:
+        found["lowest_load_is"] = "mixed" if len(parted) > 1 else "pull-off" if True in parted else "in contact"
+    return found
+
+
+def _passes_pull_off(record: ContactRecord) -> bool:
+    """Return True if the lowest load of an adhesive path is minus the pull-off force."""
+    from bem.adhesion.figures import passes_pull_off
+
+    load, approach, area = record.path_load, record.path_approach, record.path_contact_area
+    assert load is not None
+    assert approach is not None
+    assert area is not None
+    return passes_pull_off(load, approach, area)
