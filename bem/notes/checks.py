@@ -141,6 +141,11 @@ ABOVE_HARDNESS = define(
             "To stay below the hardness, {action}.",
             foreseen=True,
         ),
+        "layer": Reason(
+            "The pressure on the layer, {pressure:si Pa}, is {ratio:.2g} times the softer hardness.",
+            "To stay below the hardness, {action}.",
+            foreseen=True,
+        ),
         "solved": Reason(
             "Pressures reach {pressure:si Pa}, {ratio:.2g} times the softer hardness, and {share:%} of the load is"
             " carried above it.",

@@ -383,6 +383,22 @@ def test_every_dry_elastic_kind_is_told_of_yield(kind):
 
 
 @pytest.mark.internal
+def test_hardness_is_compared_with_the_pressure_on_a_layer():
+    """A soft lining spreads the load: Hertz' pressure of the substrates, 33 MPa, is not that of the contact."""
+    lining = {"kind": "contact", "grid": {"shape": [128, 32], "lengths": ["29.3 mm", "7.325 mm"]}}
+    lining["grid"]["periodic"] = [False, True]
+    lining |= {"lower": {"material": STEEL}, "shape": {"kind": "cylinder", "radius": "6.67667 m"}}
+    layer = {"material": "ptfe", "thickness": "1 mm"}  # of a hardness of 27 MPa
+    lining |= {"upper": {"material": STEEL, "layer": layer}, "contact": {"load": "1.465 kN"}}
+    assert fired("hertz_pressure_above_hardness", lining) == []
+    (told,) = fired("hertz_pressure_above_hardness", with_(lining, contact__load="6 kN"))
+    assert told.values["reason"] == "layer"
+    assert told.values["ratio"] == pytest.approx(told.values["pressure"] / 27e6, rel=1e-9)
+    thin = with_(lining, contact__load="6 kN", upper__layer__thickness="0.3 mm")  # no closed form: the run compares
+    assert fired("hertz_pressure_above_hardness", thin) == []
+
+
+@pytest.mark.internal
 def test_a_friction_curve_is_told_of_yield_as_a_dry_contact_where_no_cap_is():
     """By model: of a capped and an elastic one the elastic one is. The disk of 110 HV yields below its surface at
     0.7 GPa and is indented at 1.1; 200 N make 0.8 GPa, 600 N 1.35."""

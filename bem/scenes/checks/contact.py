@@ -20,7 +20,7 @@ from bem.notes.note import joined
 from bem.quantities import si
 from bem.scenes import build
 from bem.scenes.checks.facts import Case, Facts, worst
-from bem.scenes.checks.hertz import LARGEST_SLOPE
+from bem.scenes.checks.hertz import LARGEST_SLOPE, line_contact_on_layer
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.cut_off import WANTED, key_of_lengths
 
@@ -45,18 +45,33 @@ def contact_large_for_its_radius(facts: Facts) -> Iterator[Note]:
 def hertz_pressure_above_hardness(facts: Facts) -> Iterator[Note]:
     """An elastic contact has no limit; a real one flows. Only where no cap is set."""
     values = (
-        (case.smooth.maximum_pressure / case.softest, case)
+        (pressure / case.softest, pressure, case)
         for case in _elastic(facts)
-        if case.smooth is not None and case.softest is not None
+        if case.softest is not None and (pressure := _smooth_pressure(case)) is not None
     )
-    found = worst(values)
+    found = max(values, key=lambda one: one[0], default=None)
     if found is not None and found[0] > 1:
-        ratio, case = found
-        assert case.smooth is not None
+        ratio, pressure, case = found
         capped = {"contact": 'behaviour = "capped"', "friction": 'sharing.models = ["capped"]'}.get(facts.scene.kind)
         how = "take a smaller load" if capped is None else f"take {capped} or a smaller load"
-        pressure = case.smooth.maximum_pressure
-        yield ABOVE_HARDNESS(case.label, pressure=pressure, ratio=ratio, action=how, reason="hertz")
+        reason = "layer" if _layered(case) else "hertz"
+        yield ABOVE_HARDNESS(case.label, pressure=pressure, ratio=ratio, action=how, reason=reason)
+
+
+def _layered(case: Case) -> bool:
+    """Return True if one of the bodies has layers."""
+    return any(body.layers for body in case.bodies.values())
+
+
+def _smooth_pressure(case: Case) -> float | None:
+    """Return the highest pressure of the smooth contact [Pa]: Hertz', or that of a line contact on a layer.
+
+    None of other contacts with layers, whose pressure is not Hertz' and which the run itself compares.
+    """
+    if case.smooth is None or not _layered(case):
+        return None if case.smooth is None else case.smooth.maximum_pressure
+    on_layer = line_contact_on_layer(case.lower, case.upper, case.smooth)
+    return None if on_layer is None else on_layer[1]
 
 
 @scene_check
