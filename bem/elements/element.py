@@ -206,6 +206,12 @@ class Element:
         return Element(self.model.model_copy(update=changes), warm, estimated, ambient, start)
 
     @property
+    def _bulk_computed(self) -> bool:
+        """Return True if the bulk temperature is of a heat balance or an estimate, and no key of the file."""
+        of_bush = isinstance(self.model, PlainBushModel) and self.model.balanced
+        return of_bush or self.bulk_estimated or self.balanced_from is not None
+
+    @property
     def inlet_oil(self) -> OilScene | None:
         """The oil as it comes to the element: at the temperature of its heat balance if that has an `ambient`."""
         return self.model.oil if self.ambient is None else self.model.film_oil
@@ -333,7 +339,8 @@ class Element:
 
     def notes(self) -> tuple[Note, ...]:
         """Return the notes on the element, and on places where half-space and line film do not carry."""
-        notes = [*notes_on_table(self.model), *self.found.notes, *self.model.viscosity_notes()]
+        given = self.model.model_copy(update={"bulk_temperature": None}) if self._bulk_computed else self.model
+        notes = [*notes_on_table(given), *self.found.notes, *self.model.viscosity_notes()]
         if (unused := self._unused_oil_temperature()) is not None:
             notes.append(unused)
         if (colder := self._colder_than_oil()) is not None:

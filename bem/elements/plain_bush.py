@@ -125,6 +125,12 @@ class PlainBushModel(ElementModel):
         if (self.speed is None) == (self.oscillation is None):
             both = self.speed is not None
             raise problem(f"{'both' if both else 'neither'} of speed and oscillation given", "one of them")
+        shaft, bush = self.first.build(), self.second.build()
+        if shaft.youngs_modulus < POLYMER <= bush.youngs_modulus:
+            raise problem(
+                f"first (shaft, {shaft.name}) is softer than second (bush, {bush.name}), which is the body that wears",
+                "the polymer as second: swap first and second",
+            )
         if not self.clearance < 0.1 * self.shaft_diameter:
             most = with_unit(0.1 * self.shaft_diameter, "m")
             raise problem(

@@ -681,6 +681,15 @@ def test_a_swinging_bush_wears_where_it_turns_round():
     assert "turning points" in note
 
 
+def test_a_temperature_that_is_no_key_of_the_file_has_no_usual_range():
+    hot = load_element(WATER | {"friction": 0.5, "radial_load": "2 kN", "heat_balance": {"conductance": "0.1 W/K"}})
+    balanced = balance_heat(hot)
+    assert balanced.model.bulk_temperature > 1000
+    assert not any("bulk_temperature" in note for note in all_notes(balanced, ()))
+    given = load_element(without(DRY, "oil") | {"bulk_temperature": "1500 K"})
+    assert any("bulk_temperature" in note for note in all_notes(given, ()))
+
+
 def test_a_wall_is_a_layer_of_films_and_scenes(tmp_path):
     """The scene's pressure is that of the equivalent cylinder by harmonics, and its film thinner than without wall."""
     element = load_element(WATER)
@@ -820,6 +829,7 @@ def test_an_assumed_friction_is_that_on_steel():
         ({"speed": None}, "neither of speed"),
         ({"oscillation": {"amplitude": "20 deg", "frequency": "2 1/s"}}, "both of speed"),
         ({"clearance": "3 mm"}, "allowed: below 2 mm"),
+        ({"first": "peek", "second": "steel-52100"}, "swap first and second"),
         ({"wall": "0.1 mm"}, "at least 200 um.*upper.layer.thickness"),
         ({"first": "stainless"}, "youngs_modulus, poissons_ratio"),
         ({"wall": None}, "housing without wall"),
