@@ -371,7 +371,7 @@ PARTICLES_OF_MESH = define(
     reasons={
         "criterion": Reason(
             "The length of wear.criterion {law}, {length:si m}, is {cells:.2g} cells{along}.",
-            "Take cells of {cell:si m} or less{along}.",
+            "Take cells of {cell:si m} or less{along}{longer}.",
         ),
         "depths": Reason(
             "Depths are {ratio:.2g} cells apart.", "Take depths.spacing = the cell, {cell:si m}, or less."
@@ -505,7 +505,7 @@ NO_PARTICLE_SIZES = define(
     INFO,
     "A wear law by pressure gives no wear particles.",
     "wear.criterion = {law} gives depth and volume only.",
-    'Set wear.particle_criterion = "averaged_von_mises" for sizes and numbers of particles.',
+    "For sizes and numbers of particles set {shape}{criterion}.",
 )
 NOT_SETTLED = define(
     "not-settled",
@@ -519,19 +519,19 @@ SETTLING_UNJUDGED = define(
     "settling-unjudged",
     CAUTION,
     "The cycles are too few to judge whether they have settled.",
-    "The roughness of the moving body meets the same roughness again every {turn} cycles, one turn, and the run has"
-    " {cycles}: within a turn figures change with its place as they do with wear.",
-    "Set cycles.count = {count} (two turns) or more{averaged}.",
+    "The roughness of the moving body meets the same roughness again every {turn} cycles, one repeat of its patch, and"
+    " the run has {cycles}: within a repeat figures change with its place as they do with wear.",
+    "Set cycles.count = {count} (two repeats of the roughness patch) or more{averaged}.",
 )
 FRICTION_SWINGS = define(
     "friction-swings",
     CAUTION,
     "Friction swings with the place of the moving roughness.",
-    "Mean friction is {first:.4g} over the first whole turn of {turn} cycles and {last:.4g} over the last one,"
-    " a turn until the roughness of the moving body is where it was;"
+    "Mean friction is {first:.4g} over the first repeat of the roughness patch, {turn} cycles, and {last:.4g} over the"
+    " last; after a repeat the roughness of the moving body is where it was;"
     " friction_initial = {initial:.4g} is that of the first cycle, friction_run_in = {run_in:.4g} the mean of"
     " the last {averaged}{of}.",
-    "Compare the means of the first and the last whole turn, or set cycles.averaged = {turn}.",
+    "Compare the means of the first and the last repeat, or set cycles.averaged = {turn}.",
 )
 LESS_THAN_A_PARTICLE = define(
     "less-than-a-particle",

@@ -18,8 +18,8 @@ _MEAN_SIZE = re.compile(r"(number|area|volume|number_above)_mean_(equivalent_rad
 """Mean sizes of particles by their weight."""
 
 FIGURE_NAMES: dict[str, str] = {
-    "friction_first_turn": "friction coefficient, mean of the first whole turn",
-    "friction_last_turn": "friction coefficient, mean of the last whole turn",
+    "friction_first_turn": "friction coefficient, mean of the first repeat of the roughness patch",
+    "friction_last_turn": "friction coefficient, mean of the last repeat of the roughness patch",
     "mean_contact_traction": "mean of pressure less attraction in contact",
     "concentration": "concentration of substrate at the surface of the film",
     "share_of_lower": "share of the heat that enters the lower body",

@@ -216,7 +216,10 @@ CASES = {
         wear("wear.criterion=low_cycle_fatigue"),
     ),
     "few_cells_per_length_of_the_criterion": (
-        (wear('wear.criterion={kind="averaged_von_mises", averaging_length="100 nm"}'), "100 nm, is 2 cells."),
+        (
+            wear('wear.criterion={kind="averaged_von_mises", averaging_length="100 nm"}'),
+            'or less, or averaging_length = "300 nm".',
+        ),
         wear('wear.criterion={kind="averaged_von_mises", averaging_length="400 nm"}'),
     ),
     "layer_of_one_depth": (
@@ -726,7 +729,10 @@ OUTCOMES = {
     ),
     "friction_that_swings_with_the_place": (
         "running-in-stribeck",
-        (swinging_outcome(0.002), "0.11 over the first whole turn of 67 cycles and 0.11 over the last one"),
+        (
+            swinging_outcome(0.002),
+            "0.11 over the first repeat of the roughness patch, 67 cycles, and 0.11 over the last;",
+        ),
         swinging_outcome(0.0002),
     ),
     "wear_outside_the_contact_region": (
@@ -770,7 +776,10 @@ OUTCOMES = {
     "law_without_particles": (
         library()["wear-steel-steel"]
         | {"wear": {"criterion": {"kind": "archard", "specific_wear_rate": 1e-16, "distance": 1.0}}},
-        (both_outcome(2e-18), 'Set wear.particle_criterion = "averaged_von_mises"'),
+        (
+            both_outcome(2e-18),
+            'set wear.particle_criterion = { kind = "averaged_von_mises", averaging_length = "300 nm" }',
+        ),
         both_outcome(0.0),
     ),
     "loop_without_error_bars": (
@@ -829,7 +838,7 @@ def test_a_swing_with_the_place_of_the_roughness_is_no_drift():
     assert drift(swing.variables["friction_over_cycles"].values) is not None
     assert list(check(facts, swing)) == []
     (told,) = check(facts, swinging_outcome(0.01, drift=1e-4))
-    assert "(67, whole turns of the roughness)" in told
+    assert "(67, whole repeats of the roughness patch)" in told
 
 
 @pytest.mark.internal
@@ -865,8 +874,11 @@ def test_a_loop_shorter_than_two_turns_says_so_once_and_only_where_rough_bodies_
     )
     notes = [note for name in names for note in OUTCOME_CHECKS[name](facts_of("running-in-stribeck"), short)]
     assert [note.code for note in notes] == ["settling-unjudged"]
-    assert f"again every 67 cycles, one turn, and the run has {count}:" in notes[0]
-    assert "Set cycles.count = 134 (two turns) or more, and cycles.averaged = 67 (one turn)." in notes[0]
+    assert f"again every 67 cycles, one repeat of its patch, and the run has {count}:" in notes[0]
+    assert (
+        "Set cycles.count = 134 (two repeats of the roughness patch) or more, and cycles.averaged = 67 (one repeat)."
+        in notes[0]
+    )
     smooth = facts_of(SMOOTH_COUNTERFACE)
     assert all(note.code == "not-settled" for name in names for note in OUTCOME_CHECKS[name](smooth, short))
     quiet = swinging_outcome(0.0002, 0, count)

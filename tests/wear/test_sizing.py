@@ -1,13 +1,19 @@
 """Sizes of particles beside a wear law: those of the stress criterion, from the contact that the law wears."""
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 from small_scenes import WEAR
 
 from bem.campaigns import campaign_of, compute
 from bem.errors import InputError
+from bem.grid import Grid
 from bem.runs import plan_scene
 from bem.scenes.checks import examine, outcome_warnings
+from bem.scenes.checks.cycles import _cells_for_particles
+from bem.wear.criterion.averaged import AveragedVonMises
 
 ARCHARD = '[wear]\ncriterion = { kind = "archard", specific_wear_rate = "1e-7 mm^3/(N*m)", distance = "%s" }\n'
 SIZES = 'particle_criterion = "von_mises"\n'
@@ -76,6 +82,22 @@ def test_a_law_without_sizes_says_how_to_have_them(tmp_path):
         campaign, found = run(tmp_path, WEAR + text)
         codes = [note.code for note in outcome_warnings(examine(campaign.scene), found)]
         assert codes.count("no-particle-sizes") == told
+
+
+@pytest.mark.internal
+def test_the_criterion_that_is_recommended_is_resolved_by_the_cells(tmp_path):
+    """ "averaged_von_mises" of 300 nm was recommended on cells of 2.1 um x 3.75 um, and answered by finer cells."""
+    campaign, _ = run(tmp_path, WEAR + ARCHARD % "1 mm")
+    facts = examine(campaign.scene)
+    for grid, words in (
+        (Grid((192, 64), (2.1e-6, 3.75e-6)), "grid.shape = [192, 128] and "),
+        (Grid((64, 64), (2e-6, 2.5e-6)), ""),
+    ):
+        of_grid: Any = SimpleNamespace(scene=SimpleNamespace(grid=SimpleNamespace(shape=grid.shape)))
+        said, length = _cells_for_particles(of_grid, grid)
+        assert said == words
+        finest = Grid((192, 128), (2.1e-6, 1.875e-6)) if words else grid
+        assert AveragedVonMises(averaging_length=length).resolved(facts.cases[0].wearing[0], finest)
 
 
 @pytest.mark.parametrize(

@@ -41,7 +41,7 @@ _RADIUS = "equivalent radius of the particles of the last cycles.settled cycles"
 
 def _turn(which: str) -> Figure:
     """Figure of the mean friction over a whole turn of the moving roughness."""
-    text = f"friction coefficient, mean over the {which} whole turn of the moving roughness, where two turns fit"
+    text = f"friction coefficient, mean over the {which} repeat of the moving roughness patch, where two fit"
     return Figure("", text, headline=True, optional=True, unjudged=True)
 
 

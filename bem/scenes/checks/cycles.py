@@ -109,12 +109,12 @@ def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[Note]
     if turn >= 2 and cycles < 2 * turn:
         if told or _swings(facts, outcome):
             averaged = getattr(facts.scene.cycles, "averaged", turn)
-            mean = "" if averaged == turn else f", and cycles.averaged = {turn} (one turn)"
+            mean = "" if averaged == turn else f", and cycles.averaged = {turn} (one repeat)"
             yield SETTLING_UNJUDGED(turn=turn, cycles=cycles, count=2 * turn, averaged=mean)
         return
     if told:
         window = _window(facts, cycles)
-        words = "25, or half of all" if window == _WINDOW else f"{window}, whole turns of the roughness"
+        words = "25, or half of all" if window == _WINDOW else f"{window}, whole repeats of the roughness patch"
         yield NOT_SETTLED(drifting=joined(told), window=words)
 
 
@@ -510,8 +510,32 @@ def law_without_particles(facts: Facts, outcome: Outcome) -> Iterator[Note]:
             return
         strong = any(material.yield_stress is not None for material in case.wearing)
         if case.wear.criterion.wears_by_pressure and case.wear.traction.slides and strong:
-            yield NO_PARTICLE_SIZES(law=case.wear.criterion.name)
+            if case.grid is not None:
+                shape, length = _cells_for_particles(facts, case.grid)
+                criterion = f'{{ kind = "averaged_von_mises", averaging_length = "{si(length, "m")}" }}'
+                yield NO_PARTICLE_SIZES(
+                    law=case.wear.criterion.name, shape=shape, criterion=f"wear.particle_criterion = {criterion}"
+                )
             return
+
+
+def _cells_for_particles(facts: Facts, grid: Grid) -> tuple[str, float]:
+    """Return what to set for cells on which particles are sought, in words, and the length of their criterion [m].
+
+    Cells much longer one way than the other become as short both ways, where the scene says how many there are.
+    """
+    from bem.wear.criterion.base import resolved_length
+
+    short, long = sorted(grid.spacing)
+    told = getattr(getattr(facts.scene, "grid", None), "shape", None)
+    if long <= _UNLIKE_CELLS * short or told is None:
+        return "", resolved_length(long)
+    fine = [16 * math.ceil(length / short / 16 * (1 - 1e-9)) for length in grid.lengths]
+    return f"grid.shape = {fine} and ", resolved_length(short)
+
+
+_UNLIKE_CELLS = 1.5
+"""Longer over shorter side of a cell up to which particles are sought, as `bem.elements.rough_scenes` has it."""
 
 
 @outcome_check

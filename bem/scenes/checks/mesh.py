@@ -258,10 +258,10 @@ def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[Note]:
             continue
         coarse = [law.length(material) for material in case.wearing if not law.resolved(material, case.grid)]
         if coarse:
-            from bem.wear.criterion.base import FEWEST_CELLS
+            from bem.wear.criterion.base import FEWEST_CELLS, resolved_length
 
             dx, dy = case.grid.spacing
-            most = min(coarse) / FEWEST_CELLS
+            most, wanted = min(coarse) / FEWEST_CELLS, resolved_length(max(dx, dy))
             long = [axis for axis, cell in zip("xy", (dx, dy), strict=True) if cell > most]
             yield PARTICLES_OF_MESH(
                 case.label,
@@ -270,6 +270,7 @@ def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[Note]:
                 cells=min(coarse) / max(dx, dy),
                 cell=most,
                 along=f" along {long[0]}" if len(long) == 1 else "",
+                longer=f', or {law.length_key} = "{si(wanted, "m")}"' if law.length_key else "",
                 reason="criterion",
             )
 

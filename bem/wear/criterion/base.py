@@ -19,6 +19,14 @@ if TYPE_CHECKING:
 FEWEST_CELLS = 2.9
 """Fewest cells to a length of the material for sizes within five per cent (`reports/experiments/wear_lengths.py`)."""
 
+_SHORTEST_LENGTH = 300e-9
+"""Default of the length over which a criterion averages stresses [m]."""
+
+
+def resolved_length(cell: float) -> float:
+    """Return the length of a criterion [m] that cells of a side [m] resolve: three cells, and its default at least."""
+    return max(_SHORTEST_LENGTH, 3 * cell)
+
 
 SKIN_DEPTH = 100e-9
 """Default thickness of the skin that leaves with the material below it [m]."""
