@@ -165,6 +165,10 @@ RANGES: tuple[UsualRange, ...] = (
         "catalogues permit some 1 mrad (3 minutes of arc) of cylindrical roller bearings",
     ),
     UsualRange(
+        "amplitude of the oscillation", "rad", 1e-4, 3.1416, ("oscillation.amplitude",),
+        (("deg", math.radians(1)), ("mrad", 1e-3)), "to either side; 180 deg is half a turn",
+    ),
+    UsualRange(
         "load", "N", 1e-12, 1e7, ("load", "loads", "load_end", "force", "radial_load", "preload", "tension"),
         (("mN", 1e-3), ("uN", 1e-6)),
     ),

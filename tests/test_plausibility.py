@@ -57,6 +57,15 @@ def test_each_range_fires_outside_and_not_inside(usual, share, beyond):
         assert note.values["quantity"] == usual.quantity
 
 
+@pytest.mark.parametrize(("amplitude", "unusual"), [(15, True), ("15 deg", False), ("180 deg", False)])
+def test_an_amplitude_of_degrees_without_unit_is_said(amplitude, unusual):
+    bush = {"element": "plain-bush", "shaft_diameter": "20 mm", "clearance": "40 um", "length": "20 mm"}
+    bush |= {"radial_load": "500 N", "first": STEEL, "second": "pom", "name": "bush"}
+    bush |= {"oscillation": {"amplitude": amplitude, "frequency": "1 Hz"}}
+    said = [note for note in load_element(bush).notes() if note.where == "oscillation.amplitude"]
+    assert ['write "15 deg"' in note for note in said] == [True] * unusual
+
+
 def test_a_key_has_one_range_and_a_quantity_one_entry():
     assert len({usual.quantity for usual in RANGES}) == len(RANGES)
     assert sum(len(usual.keys) for usual in RANGES) == len(BY_KEY)

@@ -38,14 +38,24 @@ OIL_TOO_THICK = define(
 OIL_TOO_HOT = define(
     "oil-too-hot",
     CAUTION,
-    "The oil is hotter than it can stand.",
+    "The liquid is hotter than it can stand.",
     "",
     "Lower temperature, load, speed or sliding.",
     reasons={
-        "flash-point": Reason("The oil is above its flash point, {limit:.4g} degC.", "Lower the temperature."),
+        "flash-point": Reason(
+            "The oil is above its flash point, {limit:.4g} degC.",
+            "Lower the temperature.",
+            headline="The oil is hotter than its flash point.",
+        ),
         "service": Reason("Above {limit:.4g} degC its water evaporates.", "Lower the temperature."),
-        "cracks": "Oil or surfaces exceed {limit:.4g} degC, where oils crack; viscosities there are extrapolated.",
-        "boils": "{oil} is above its boiling point in the contact.",
+        "cracks": Reason(
+            "Oil or surfaces exceed {limit:.4g} degC, where oils crack; viscosities there are extrapolated.",
+            headline="The oil is hotter than it can stand.",
+        ),
+        "boils": Reason(
+            "In the contact it has {hottest:.0f} degC.",
+            headline="The {oil} boils ({limit:.4g} degC at ambient pressure).",
+        ),
     },
 )
 

@@ -13,6 +13,7 @@ from bem.lubrication import Lubricant, solve_line_film
 from bem.lubrication.inlet_heating import inlet_heating_factor
 from bem.lubrication.line import case as line_case
 from bem.lubrication.thermal import lumped, solve_full_thermal_line_film, solve_thermal_line_film
+from bem.lubrication.thermal.checks import notes_of_heat
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.lumped_energy import Channel, film_temperatures
 from bem.materials import CATALOGUE, Body, Material
@@ -310,6 +311,16 @@ def test_what_is_beyond_an_oil_is_said():
     assert has_code(notes, OIL_TOO_HOT, reason="cracks")
     assert not has_code(notes, HEAT_LEFT_OUT)
     assert film(0.01, 0.0, 0.4e9).notes == ()
+
+
+def test_a_liquid_that_boils_is_named():
+    """Water at its boiling point was an oil that is hotter than it can stand; far beyond, it is no oil that cracks."""
+    water = oil(300.0, "water", shear_law="newtonian", shear_stress_limit=None)
+    for hottest in (373.16, 700.0):
+        (note,) = notes_of_heat(water, hottest)
+        assert note.headline == "The water boils (100 degC at ambient pressure)"
+        assert note.values["hottest"] == pytest.approx(hottest - 273.15)
+    assert notes_of_heat(water, 373.14) == ()
 
 
 @pytest.mark.parametrize("layer", [2e-7, 3e-8])

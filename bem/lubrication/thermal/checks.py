@@ -64,17 +64,19 @@ def notes_of_film(
 def notes_of_heat(lubricant: Lubricant, hottest: float) -> tuple[Note, ...]:
     """Return notes on the highest temperature of oil and surfaces [K]."""
     notes = []
-    if hottest > HOTTEST:
+    oil = lubricant.oil
+    if oil is not None and oil.boiling_point is not None and hottest > oil.boiling_point:
+        limit, hot = oil.boiling_point - ZERO_CELSIUS, hottest - ZERO_CELSIUS
+        notes.append(OIL_TOO_HOT(oil=oil.name, limit=limit, hottest=hot, reason="boils"))
+    elif hottest > HOTTEST:
         notes.append(OIL_TOO_HOT(limit=HOTTEST - ZERO_CELSIUS, reason="cracks"))
-    elif lubricant.oil is not None:
-        notes += _hot_oil(lubricant.oil, hottest)
+    elif oil is not None:
+        notes += _hot_oil(oil, hottest)
     return tuple(notes)
 
 
 def _hot_oil(oil: Oil, hottest: float) -> list[Note]:
-    """Return a note where the properties of the oil are unknown at its highest temperature [K]."""
-    if oil.boiling_point is not None and hottest > oil.boiling_point:
-        return [OIL_TOO_HOT(oil=oil.name, reason="boils")]
+    """Return a note where the viscosity of the oil is extrapolated at its highest temperature [K]."""
     if hottest > oil.viscosity.highest + EXTRAPOLATED:
         return [
             OIL_DATA_SHORT(
