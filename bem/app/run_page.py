@@ -559,6 +559,8 @@ def compare_page(workspace: Workspace, names: list[str]) -> None:
                             rows(table.title, table.rows, table.head)
                         else:
                             ui.label(f"{table.title}: no differences").classes("bem-soft")
+                    for text in found.unpaired:
+                        ui.label(text).classes("bem-soft")
                     for text in found.beyond:
                         ui.label(text).classes("text-body2 bem-wrong")
                 shown = await compute(overlay, paths, names)

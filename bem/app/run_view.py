@@ -39,6 +39,7 @@ from bem.results.compare import (
     scene_differences,
     shown,
     unit_of_key,
+    unpaired_words,
 )
 from bem.results.dataset import opened_dataset
 from bem.results.directory import CASES, RESULTS, SCENE
@@ -269,10 +270,14 @@ def solid_view(path: Path, name: str, case: int) -> Picture:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Runs side by side: what differs in their scenes and results, and what is outside its model."""
+    """Runs side by side: what differs in their scenes and results.
+
+    beyond : what is outside its model. unpaired : which runs have other speeds or loads than the first.
+    """
 
     tables: tuple[Table, ...]
     beyond: tuple[str, ...]
+    unpaired: tuple[str, ...] = ()
 
 
 def comparison(paths: Sequence[Path], names: Sequence[str]) -> Comparison:
@@ -286,7 +291,8 @@ def comparison(paths: Sequence[Path], names: Sequence[str]) -> Comparison:
     check_number(names)
     runs = [open_run(path) for path in paths]
     headline = [key for kind in {run.summary["kind"] for run in runs} for key in get_kind(kind).headline]
-    found = headline_differences([d for d in figure_differences(*runs) if not d.equal], [*headline, "status"])
+    differences = [item for item in figure_differences(*runs) if not item.equal]
+    found = headline_differences(differences, [*headline, "status"])
     scenes = tuple(
         (_words_of_key(d.key), *(_shown_value(v, _unit_of(runs, d.key)) for v in d.values))
         for d in scene_differences(*runs)
@@ -295,6 +301,7 @@ def comparison(paths: Sequence[Path], names: Sequence[str]) -> Comparison:
     return Comparison(
         (Table("results", results, ("figure", *names)), Table("scenes", scenes, ("key", *names))),
         tuple(beyond(runs, names)),
+        tuple(unpaired_words(differences, names)),
     )
 
 

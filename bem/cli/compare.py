@@ -80,8 +80,8 @@ def _names(paths: list[Path]) -> list[str]:
 
 def _results(runs: list[Any], names: list[str], everything: bool) -> None:
     """The table of figures."""
-    from bem.cli._terminal import table
-    from bem.results.compare import figure_differences, headline_differences, shown
+    from bem.cli._terminal import print_text, table
+    from bem.results.compare import figure_differences, headline_differences, shown, unpaired_words
     from bem.scenes import get_kind
 
     found = figure_differences(*runs)
@@ -100,6 +100,8 @@ def _results(runs: list[Any], names: list[str], everything: bool) -> None:
         print("results: equal in every figure")
     else:
         print("results: equal in every headline figure")
+    for text in unpaired_words(found, names):
+        print_text(text)
     if not everything and (more := len(differing) - len(listed)):
         print(f"{more} {'further ' if listed else ''}figure{'s differ' if more > 1 else ' differs'} (--all shows all)")
 

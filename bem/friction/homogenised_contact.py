@@ -203,7 +203,8 @@ class HomogenisedContact(OfPatch):
             across = half_axis / self._correlation_length
             if across < FEWEST_LENGTHS_ACROSS:
                 length = self._correlation_length
-                notes.append(REPEATED_PATCH(across=across, length=length, fewest=FEWEST_LENGTHS_ACROSS, reason="waves"))
+                fewest, side = FEWEST_LENGTHS_ACROSS, 4 * half_axis
+                notes.append(REPEATED_PATCH(across=across, length=length, fewest=fewest, side=side, reason="waves"))
             if max(pressure[0, 0], pressure[-1, 0]) > LARGEST_EDGE_PRESSURE * pressure.max():
                 length = float(-self.setup.film_grid.x[0])
                 notes.append(REPEATED_PATCH(length=length, across=length / half_axis, reason="edge"))

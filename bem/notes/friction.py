@@ -192,7 +192,8 @@ REPEATED_PATCH = define(
         "waves": Reason(
             "Its correlation length along the sliding direction, {length:si m}, goes {across:.2g} times into the"
             " half-width of the contact; with fewer than {fewest:g} the patch is not the same everywhere.",
-            "Take a patch that holds the contact: grid.periodic = [false, true] and grid.lengths of twice its width.",
+            "Take a patch that holds the contact: grid.periodic = [false, true] and {side:si m} of grid.lengths along"
+            " x, twice Hertz' width. A measured map must be as long.",
             headline="The roughness is too long for a patch that repeats.",
         ),
         "flash": Reason(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -28,6 +28,8 @@ class Difference:
 
     key: str
     values: tuple[Any, ...]
+    unpaired: frozenset[int] = frozenset()
+    """Runs whose list holds other places (speeds, loads) than that of the first run."""
 
     @property
     def equal(self) -> bool:
@@ -36,6 +38,8 @@ class Difference:
 
     def relative(self, run: int) -> tuple[float, float] | None:
         """Least and largest of this run's value(s) over the first run's, less one; None where that means nothing."""
+        if run in self.unpaired:
+            return None
         pairs = list(zip(_numbers(self.values[0]), _numbers(self.values[run]), strict=False))
         if len(_numbers(self.values[0])) != len(_numbers(self.values[run])):
             return None
@@ -79,7 +83,35 @@ def shortened(texts: Sequence[str]) -> list[str]:
 
 def figure_differences(*runs: FinishedRun) -> list[Difference]:
     """All figures of the summaries, equal or not, in the order of the first; a list of numbers is one figure."""
-    return _union([_figures(run.summary) for run in runs])
+    unpaired = {
+        (name, i): len(values)
+        for name in PLACES
+        if isinstance(values := runs[0].summary.get(name), list)
+        for i, run in enumerate(runs)
+        if run.summary.get(name) != values
+    }
+    return [
+        replace(item, unpaired=frozenset(i for (_, i), length in unpaired.items() if length == len(item.values[0])))
+        if isinstance(item.values[0], list)
+        else item
+        for item in _union([_figures(run.summary) for run in runs])
+    ]
+
+
+PLACES = ("speed_m_s", "load_N", "temperature_C", "hardness_Pa", "position_m", "spacing_um")
+"""Figures that say of which speed, load or other input the entries of lists are."""
+
+
+def unpaired_words(found: Sequence[Difference], names: Sequence[str]) -> list[str]:
+    """Return a sentence for each run whose speeds, loads or other places differ from those of the first run."""
+    said = []
+    for item in found:
+        word = {"speed_m_s": "speeds", "load_N": "loads"}.get(item.key, f"values of {item.key.rpartition('_')[0]}")
+        said += [
+            f"{names[i]} has other {word} than {names[0]}: no change is given of figures listed over them."
+            for i in (sorted(item.unpaired) if item.key in PLACES else ())
+        ]
+    return said
 
 
 def headline_differences(found: Sequence[Difference], headline: Sequence[str]) -> list[Difference]:

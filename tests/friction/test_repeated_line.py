@@ -131,7 +131,10 @@ def test_long_waves_are_said():
     long = Grid((16, 16), (10e-6, 10e-6), periodic=(True, True))
     heights = 60e-9 * np.cos(2 * np.pi * long.x / 160e-6)[:, None] * np.ones((1, 16))
     found = solve_setup(MixedSetup(grid=long, **LINE), heights, SPEEDS)
-    assert [note.values["reason"] for note in found.notes if note.code == "repeated-patch"] == ["waves"]
+    (said,) = (note for note in found.notes if note.code == "repeated-patch")
+    assert said.values["reason"] == "waves"
+    width = 2 * min(MixedSetup(grid=long, **LINE).smooth.half_axes(LINE["load"]))
+    assert said.values["side"] == pytest.approx(2 * width, rel=1e-12, abs=0)  # Hertz' width, not that of the cylinder
     with pytest.raises(InputError, match="uncoupled asperities need a patch that holds the contact"):
         MixedSetup(**{**LINE, "grid": CELL, "contact_model": "uncoupled"})
     with pytest.raises(InputError, match='make it "loaded"'):

@@ -29,6 +29,7 @@ from bem.results.compare import (
     shortened,
     shown,
     unit_of_key,
+    unpaired_words,
     without_sources,
 )
 from bem.results.directory import checksum
@@ -85,6 +86,28 @@ def test_a_list_of_numbers_is_one_figure():
     assert shown(1.25e-7, "m") == "125 nm"
     assert shown([3.0, 1.0]) == "3, 1"
     assert leaves({"a": {"b": [1, {"c": 2}]}, "d": [3, 4]}) == {"a.b[0]": 1, "a.b[1].c": 2, "d": [3, 4]}
+
+
+@pytest.mark.internal
+def test_figures_over_other_speeds_have_no_change(pair, monkeypatch):
+    """Friction at 10 mm/s was compared with that at 3 mm/s, which stood at the same place of its list."""
+
+    def over(run, speeds):
+        lists = {"speed_m_s": speeds, "friction": [0.12, 0.05], "names": [1.0, 2.0, 4.0], "count": 3}
+        return dataclasses.replace(run, summary=run.summary | lists)
+
+    runs = [over(pair[0], [0.01, 5.0]), over(pair[1], [0.003, 3.0]), over(pair[1], [0.01, 5.0])]
+    found = {d.key: d for d in figure_differences(*runs)}
+    assert found["friction"].relative(1) is None
+    assert found["speed_m_s"].relative(1) is None
+    assert found["friction"].relative(2) == (0, 0)
+    assert found["names"].relative(1) == (0, 0)
+    assert found["count"].relative(1) == (0, 0)
+    (said,) = unpaired_words(list(found.values()), ["a", "b", "c"])
+    assert said == "b has other speeds than a: no change is given of figures listed over them."
+    monkeypatch.setattr("bem.results.open_run", lambda path: runs[path.name == "b"])
+    told = CliRunner().invoke(build(), ["compare", str(pair[0].path), str(pair[1].path), "--no-figures"])
+    assert "b has other speeds than a" in told.output
 
 
 @pytest.mark.internal
