@@ -6,7 +6,6 @@ import csv
 import io
 import math
 import re
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -64,6 +63,7 @@ from bem.scenes.oil import OilScene
 from bem.scenes.template import without_description
 from bem.scenes.units import turns_without_angle
 from bem.scenes.validate import nearest, show, validate
+from bem.scenes.values import parse_toml
 
 MODELS: dict[str, type[ElementModel]] = {
     "cam-follower": CamModel,
@@ -735,7 +735,7 @@ def read_element(path: str | Path) -> dict[str, Any]:
     InputError : a file that cannot be read.
     """
     try:
-        table = tomllib.loads(read_small(path).decode("utf-8-sig"))
+        table = parse_toml(read_small(path).decode("utf-8-sig"))
     except FileNotFoundError:
         raise InputError(
             f"File {path} not found. `bem new rolling-bearing {path}`, or another element, writes one to start from."

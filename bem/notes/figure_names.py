@@ -36,6 +36,7 @@ FIGURE_NAMES: dict[str, str] = {
     "Sq_final": "Sq of the worn body's contact region, final",
     "worn_depth": "worn depth of the contact region",
     "largest_worn_depth": "worn depth of the deepest place of the surface",
+    "step_error": "largest error of the worn depth of a place, by the last wear step",
     "particles_per_cycle": "particles per cycle of one body",
     "particles_per_distance": "particles per sliding distance, of one body",
     "particles_per_volume": "particles per worn volume",

@@ -158,7 +158,7 @@ HEIGHT_UNIT_DOUBTFUL = define(
     "The heights of the map are unusual: is the height unit right?",
     reasons={
         "steep": "Its rms slope Sdq is {slope:.3g} and its Sq {height:si m}; real surfaces stay below {limit:g}.",
-        "smooth": "Its rms height Sq is {nanometres:.2g} nm, the size of an atom; 0.5 nm and more are usual.",
+        "smooth": "Its rms height Sq is {nanometres:.2g} nm; an atom is 0.2 nm wide, and 0.5 nm and more are usual.",
     },
     action="Check the unit: height_unit in a scene, --height-unit of the commands.",
 )

@@ -18,6 +18,7 @@ from pydantic_core import PydanticCustomError
 
 from bem.arguments import did_you_mean, read_small
 from bem.errors import InputError
+from bem.laws import Law
 from bem.scenes.common import SceneModel
 from bem.scenes.kind import KINDS, get_kind, kind_names
 from bem.scenes.paths import Key, absolute, drop, parse_key, put, value_at, values_in_file
@@ -181,8 +182,11 @@ def unit_at(scene: SceneModel, key: str) -> str:
         if isinstance(part, int):
             table = table[part] if isinstance(table, list | tuple) and part < len(table) else None
             continue
-        known = {key.name: key for key in own_keys(type(table))}
-        unit = known[part].unit if part in known else ""
+        if isinstance(table, Law):
+            known = {name: about.unit for name, about in table.parameters().items()}
+        else:
+            known = {key.name: key.unit for key in own_keys(type(table))}
+        unit = known.get(part, "")
         table = getattr(table, part, None)
     return unit or "1"
 

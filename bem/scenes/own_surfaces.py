@@ -182,7 +182,13 @@ def notes_on_maps(found: Mapping[str, MeasuredMap]) -> list[str]:
 def _unit_doubts(found: Mapping[str, MeasuredMap]) -> list[str]:
     """Return a note on each map whose heights are probably in another unit."""
     notes = (height_unit_note(body, one.rms_height, one.rms_slope) for body, one in found.items())
-    return [str(note) for note in notes if note is not None]
+    doubts = [str(note) for note in notes if note is not None]
+    if doubts and sum("height_unit" in one.table for one in found.values()) > 1:
+        doubts.append(
+            "--height-unit held for both files. Where their units differ, write the unit of each into the scene, as "
+            "height_unit of its surface."
+        )
+    return doubts
 
 
 def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, MeasuredMap]) -> OwnStart:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import typing
 from collections.abc import Iterable, Sequence
-from typing import Any, TypeVar, get_args
+from typing import Any, Literal, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
@@ -110,6 +110,9 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         return f"{key}: missing{f' ({meaning})' if meaning else ''}{allowed or _choices(annotation)}"
     if kind == "literal_error":
         either = f", or {dimension.allowed}" if dimension else ""
+        if numbers := _literal_numbers(annotation):
+            quoted = " (a number without quotes)" if isinstance(value, str) else ""
+            return f"{where}: not allowed; allowed: {', '.join(map(str, numbers))}{quoted}{either}"
         return f"{where}: not allowed{nearest(value, literals(annotation))}{_choices(annotation)}{either}"
     if kind in ("union_tag_invalid", "union_tag_not_found"):
         names = [name.strip().strip("'") for name in str(context.get("expected_tags", "")).split(",") if name.strip()]
@@ -303,6 +306,13 @@ def _tags(annotation: Any) -> list[str]:
         if "kind" in fields_of_table(item)
         for tag in typing.get_args(fields_of_table(item)["kind"].annotation)
     ]
+
+
+def _literal_numbers(annotation: Any) -> list[int]:
+    """Return the values of a literal whose values all are numbers; none of other annotations."""
+    annotation = without_none(annotation)
+    values = list(get_args(annotation)) if get_origin(annotation) is Literal else []
+    return values if all(isinstance(item, int) and not isinstance(item, bool) for item in values) else []
 
 
 def _choices(annotation: Any) -> str:

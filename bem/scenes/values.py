@@ -19,10 +19,36 @@ _LONG_KEY = re.compile(rf"(?<![\w\"'-])[\w\"'-]++(?:[ \t]*\.[ \t]*[\w\"'-]++){{{
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """Read TOML by `tomllib.loads`; raise ValueError for a key of very many parts, which would take it minutes."""
+    """Read TOML by `tomllib.loads`.
+
+    Raises
+    ------
+    ValueError : text that is not TOML, in plain words where a key stands twice; a key of very many parts, which would
+        take minutes.
+    """
     if _LONG_KEY.search(text):
         raise ValueError(f"a key of more than {MOST_PARTS} parts")
-    return tomllib.loads(text)
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(_twice(str(error), text) or str(error)) from None
+
+
+def _twice(message: str, text: str) -> str:
+    """Return `tomllib`'s message on a key or table that is given twice in plain words; "" of other messages."""
+    if not _GIVEN_TWICE.match(message):
+        return ""
+    lines = text.rstrip().splitlines()
+    place = re.search(r"at line (\d+)", message)
+    number = int(place[1]) if place else len(lines)
+    key = re.match(r"\s*(\[{1,2}[^\[\]]+\]{1,2}|[\w.\"'-]+(?=\s*=))", lines[number - 1])
+    table = key is not None and key[1].startswith("[")
+    name = f"the {'table' if table else 'key'} {key[1]}" if key else "a key"
+    return f"{name} stands twice, the second time in line {number}"
+
+
+_GIVEN_TWICE = re.compile(r"Cannot overwrite a value|Cannot declare .* twice|Duplicate inline table key")
+"""Beginnings of the messages of `tomllib` on keys and tables that are given twice."""
 
 
 def plain_value(text: str) -> Any:

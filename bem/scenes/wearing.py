@@ -485,6 +485,7 @@ class WornRecord(RubbedRecord, ThirdBodyRecord):
             "nm",
             "depth of the deepest cell of a body worn by pressure, of the shown rows",
             optional=True,
+            headline=True,
             unjudged=True,  # one cell's, told to compare with the error of the step
         ),
     ] = None

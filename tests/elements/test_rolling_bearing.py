@@ -139,6 +139,8 @@ def test_rollers_touch_in_lines():
         ({"first": "stel-52100"}, 'did you mean "steel-52100"'),
         ({"element": "journal-bearing"}, "plain-bush"),
         ({"element": "bering"}, "not allowed"),
+        ({"reliability": "95"}, r'= "95": not allowed; allowed: 90, 95, 96, 97, 98, 99 \(a number without quotes\)$'),
+        ({"reliability": 94}, r"= 94: not allowed; allowed: 90, 95, 96, 97, 98, 99$"),
         ({"speed": "3 m"}, "is not a speed of rotation"),
         ({"speed": "25 Hz"}, "says no angle"),  # was read as radians: 6.28 times too slow, without a word
         ({"speed": "25 1/s"}, "says no angle"),

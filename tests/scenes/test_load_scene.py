@@ -8,10 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from bem.elements.element import load_element
 from bem.errors import InputError
 from bem.runs import plan_scene
 from bem.scenes import dump_scene, get_kind, kind_names, load_scene
-from bem.scenes.load import scenes_over
+from bem.scenes.load import scenes_over, unit_at
 from bem.scenes.planner import available_memory
 
 SCENE = {
@@ -253,6 +254,37 @@ def test_unreadable_scene_files(tmp_path, text):
     file.write_bytes(text)
     with pytest.raises(InputError):
         load_scene(file)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("load = 1\nload = 2\nother = 3\n", "the key load stands twice, the second time in line 2"),
+        ("[contact]\na = 1\n[contact]\nb = 1\n", "the table [contact] stands twice, the second time in line 3"),
+        ("[contact]\na.b = 1\na.b = 2", "the key a.b stands twice, the second time in line 3"),
+        ("a = 1\na = [\n1,\n2]\nb = 1\n", "a key stands twice, the second time in line 4"),
+    ],
+)
+def test_keys_given_twice_are_named(tmp_path, text, said):
+    """Was "Cannot overwrite a value (at line 8, column 18)"."""
+    path = tmp_path / "twice.toml"
+    path.write_text(text)
+    with pytest.raises(InputError) as scene:
+        load_scene(str(path))
+    with pytest.raises(InputError) as element:
+        load_element(path)
+    for caught in (scene, element):
+        assert f"({said})" in str(caught.value)
+
+
+def test_parameters_of_laws_have_their_units():
+    """The swept range of adhesion stood without one: 3e-07."""
+    scene, _ = plan_scene(
+        "hertz-sphere", ["contact.friction=0", 'contact.adhesion={ work = "50 mJ/m^2", range = "300 nm" }']
+    )
+    assert unit_at(scene, "contact.adhesion.range") == "m"
+    assert unit_at(scene, "contact.load") == "N"
+    assert unit_at(scene, "contact.adhesion.nothing") == "1"
 
 
 def test_resolved_scene_says_units():

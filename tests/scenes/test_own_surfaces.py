@@ -188,6 +188,17 @@ def test_files_of_plain_numbers_take_spacing_and_unit(ending, tmp_path):
     assert found.std() == pytest.approx(heights.std(), rel=0.2, abs=0)  # form is removed
 
 
+def test_one_height_unit_for_two_files_is_doubted(tmp_path):
+    """A map in metres read in nm had "the size of an atom", and nothing said that one option held for both files."""
+    disk, _ = plain_table(tmp_path, ".txt", 1e-9)
+    pin, _ = plain_table(tmp_path, ".npy", 1.0)
+    given = ["new", "contact", str(tmp_path / "mine.toml"), "--lower", str(disk), "--upper", str(pin)]
+    result = CliRunner().invoke(command_line(), [*given, "--spacing", "0.5 um", "--height-unit", "nm"])
+    assert result.exit_code == 0, result.output
+    assert "nm; an atom is 0.2 nm wide" in result.output
+    assert "--height-unit held for both files." in result.output
+
+
 def test_a_scale_is_for_the_file_that_does_not_say_it(tmp_path):
     """The other body's file keeps its own; where both files say it, a scale is refused."""
     path, _ = plain_table(tmp_path, ".txt", 1e-6)

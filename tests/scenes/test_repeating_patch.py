@@ -4,6 +4,8 @@ import pytest
 
 from bem.errors import InputError
 from bem.runs import plan_scene, run_scene
+from bem.scenes.checks.facts import examine
+from bem.scenes.checks.overview import differing
 from bem.scenes.load import load_scene
 from bem.surfaces.generate import check_statistics
 
@@ -35,6 +37,16 @@ def test_a_scene_without_grid_has_a_patch_that_repeats():
     along = scene.lower.surface.correlation_lengths
     assert scene.grid.spacing == pytest.approx([length / 6 for length in along])
     check_statistics(scene.curve_setup("off").grid, rms_height=4e-7, correlation_length=along)
+
+
+def test_the_plan_gives_the_load_of_the_whole_contact():
+    """Its row had the load of a slice as wide as the patch, under "load on the grid", though it has no grid."""
+    names, rows = differing(examine(planned(ROLLER)))
+    patch, whole = (dict(zip(names, row, strict=True)) for row in rows)
+    assert (patch["case"], whole["case"]) == ("rough patch", "whole contact")
+    assert (patch["load"], whole["load"]) == ("", "500 N")
+    assert patch["load on the grid"]
+    assert not whole["load on the grid"]
 
 
 def test_two_surfaces_share_a_patch_of_the_longer_and_cells_of_the_shorter():

@@ -233,6 +233,7 @@ def test_a_cylinder_wears_to_the_flat_of_archards_law():
     assert worn.reshape(300, 2)[150, 0] == pytest.approx(half_width**2 / 1e-2, rel=0.02)
     assert 0 < summary["step_error_nm"] < 0.02 * 1e9 * worn.max()
     assert summary["largest_worn_depth_nm"] == pytest.approx(1e9 * worn.max(), rel=1e-12)
+    assert {"step_error_nm", "largest_worn_depth_nm"} <= set(get_kind("wear").headline)  # an error and what it is of
     assert summary["criterion_wear_rate_mm3_Nm"] == pytest.approx(1e-6, rel=1e-9)
     assert summary["particles_per_cycle"] is None
 

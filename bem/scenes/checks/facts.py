@@ -36,6 +36,7 @@ class Case:
     label : which of the scene's contacts, such as "10 N"; empty where there is but one.
     grid : None where the kind has no cells over an area.
     load : on the grid [N]; None where it is not known beforehand.
+    whole_load : on the whole contact beside a rough patch that repeats [N]; None of other cases.
     smooth : Hertz contact of the substrates, None for a flat.
     cap : highest pressure a cell takes [Pa]; None where elastic.
     friction : coefficient of (boundary) friction.
@@ -53,6 +54,7 @@ class Case:
     label: str = ""
     grid: Grid | None = None
     load: float | None = None
+    whole_load: float | None = None
     smooth: SmoothContact | None = None
     cap: float | None = None
     friction: float = 0.0
@@ -234,6 +236,7 @@ def lubricated_contacts(
         Case(
             grid=None if cell else grid,
             load=contact.on_patch(load, grid.lengths),
+            whole_load=load if cell else None,
             smooth=smooth_contact(
                 bodies["lower"], bodies["upper"], contact.curvature, load=load / contact.length, modulus=modulus
             ),

@@ -139,7 +139,9 @@ def _column(case: Case) -> dict[str, str]:
         found["edges"] = _PERIODIC.get(grid.periodic, "free along x, periodic along y")
         found["spacing"] = times(grid.spacing, "m")
         found["lengths"] = times(grid.lengths, "m")
-    if case.load is not None:
+    if case.whole_load is not None:  # its cells are those of the patch
+        found["load"] = si(case.whole_load, "N")
+    elif case.load is not None:
         found["load on the grid"] = si(case.load, "N")
         found["load over grid area"] = "" if case.mean_pressure is None else si(case.mean_pressure, "Pa")
     found["pressure limit"] = "" if case.cap is None else f"{si(case.cap, 'Pa')} (hardness)"
