@@ -428,9 +428,19 @@ STRAIN_LARGE = define(
     "strain-large",
     CAUTION,
     "Pressures are too high for linear elasticity.",
-    "They reach {pressure:si Pa}, {ratio:.2g} times the contact modulus, and {share:%} of the load is "
-    "carried above 0.2 of it: strains are of that order, and linear elasticity ends at about 0.1.",
-    "Check units, smooth the surface, or cap the pressure at a hardness.",
+    reasons={
+        "pressure": Reason(
+            "They reach {pressure:si Pa}, {ratio:.2g} times the contact modulus, and {share:%} of the load is "
+            "carried above 0.2 of it: strains are of that order, and linear elasticity ends at about 0.1.",
+            "Check units, smooth the surface, or cap the pressure at a hardness.",
+        ),
+        "adhesive": Reason(
+            "Pressure less attraction reaches {pressure:si Pa}, {ratio:.2g} times the contact modulus, and {share:%} "
+            "of it lies above 0.2 of it: strains are of that order, and linear elasticity ends at about 0.1.",
+            "Check units, smooth the surface, or take a longer range of adhesion at the same work.",
+            headline="Pressures less attraction are too high for linear elasticity.",
+        ),
+    },
 )
 HARDNESS_DECIDES = define(
     "hardness-decides",

@@ -71,6 +71,7 @@ def words_of(name: str, summary: Mapping[str, Any]) -> str:
 _LOWEST_LOADS: dict[Any, str] = {
     "pull-off": "pull-off force (lowest load of the path)",
     "in contact": "lowest load of the path (the bodies did not part: the pull-off force is larger)",
+    "borne": "lowest load of the path that the bodies bear (the pull-off force is larger)",
     "mixed": "lowest load of the path (the pull-off force only where the bodies parted)",
 }
 """Names of the lowest load of an adhesive path by `lowest_load_is` of a summary."""
@@ -180,9 +181,9 @@ _WITHOUT_SIGN = frozenset(
         "power",
     )
 )
-_SIGNED = frozenset(("xy", "lowest"))
+_SIGNED = frozenset(("xy", "lowest", "attraction"))
 """Words of figures that may be negative although another of their words has no sign: flow across what drives it, the
-lowest load of an adhesive path."""
+lowest load of an adhesive path, pressure less attraction."""
 _LARGEST = frozenset(("max", "maximum"))
 
 

@@ -131,6 +131,7 @@ def test_a_figure_below_its_error_is_told_as_on_the_terminal_and_in_tables():
             ("interface_max_tension_Pa", 0.3625e6, 6.3e6),
             ("layer_max_tension_Pa", 0.0, 850e3),
             ("lowest_load_N", 1e-6, 3e-6),
+            ("mean_contact_traction_Pa", 2.9e3, 8.9e3),
             ("plastic_area_fraction", 0.0, 0.02),
             ("energy_J", 0.0, 0.0),
         )
@@ -140,6 +141,7 @@ def test_a_figure_below_its_error_is_told_as_on_the_terminal_and_in_tables():
         "interface max tension": "0.3625 (0 to 6.66) MPa",
         "layer max tension": "0 (0 to 850) kPa",
         "lowest load of the path": "1 ± 3 µN",
+        "mean of pressure less attraction in contact": "2.9 ± 8.9 kPa",
         "plastic area fraction": "0 (0 to 2) %",
         "energy": "0 J",
     }

@@ -1128,6 +1128,47 @@ def test_the_highest_pressure_of_a_note_is_that_of_the_table(pressure, check):
     assert note.values["pressure"] == pytest.approx(1.1 * pressure)
 
 
+@pytest.mark.internal
+def test_strains_of_an_adhesive_contact_are_those_of_pressure_less_attraction():
+    """A soft ball was called outside the model for pressures of 0.22 E*, most of which attraction cancels."""
+    facts, outcome = facts_of(BALL), contact_outcome(spot(40e9))
+    for attraction, share in ((spot(32e9), None), (spot(5e9), 1.0), (spot(120e9), 1.0)):
+        pulled = Variable(("x", "y"), attraction, "Pa", "attraction")
+        adhesive = replace(outcome, variables={**outcome.variables, "attraction": pulled})
+        found = list(OUTCOME_CHECKS["pressure_beyond_linear_elasticity"](facts, adhesive))
+        assert bool(found) is (share is not None)
+        for note in found:
+            assert note.values["pressure"] == abs(40e9 - attraction.max())
+            assert note.values["share"] == pytest.approx(share)
+            assert "less attraction" in note.line
+
+
+@pytest.mark.internal
+def test_cells_across_an_adhesive_contact_count_its_adhesion():
+    """Hertz' contact of a soft ball under 20 uN had 5.7 cells, where the contact is 21 cells wide."""
+    gel = {"material": {"youngs_modulus": "2 MPa", "poissons_ratio": 0.49}}
+    adhesion = {"work": "50 mJ/m^2", "range": "1 um"}
+    soft = with_(BALL, lower=gel, upper=None, shape__radius="1 mm", contact={"load": "20 uN", "adhesion": adhesion})
+    across = "few_cells_across_the_contact"
+    assert fired(across, with_(soft, contact__adhesion=None, grid__shape=64)) != []
+    assert fired(across, with_(soft, grid__shape=64)) == []
+    (told,) = fired(across, with_(soft, grid__shape=32))
+    hertz = facts_of(with_(soft, contact__adhesion=None)).cases[0].smooth.semi_axes[0]
+    larger = (1 + 2 * np.pi * 0.05 * 1e-3 / 20e-6) ** (1 / 3)
+    assert told.values["across"] == pytest.approx(2 * hertz * larger / 12.5e-6)
+    assert fired(across, with_(soft, contact__adhesion=adhesion | {"range": "100 nm"}, grid__shape=32)) == []
+
+
+@pytest.mark.internal
+def test_rolling_whose_force_is_small_by_spin_is_not_told_that_it_sticks():
+    check, facts = OUTCOME_CHECKS["rolling_of_large_errors"], facts_of("rolling-creepage")
+    figures = {"traction_coefficient": 0.09, "traction_coefficient_error": 0.5}
+    (slips,) = check(facts, Outcome({**figures, "stick_fraction": 0.003}, {}))
+    assert "spin makes nearly everything slip" in slips
+    (sticks,) = check(facts, Outcome({**figures, "stick_fraction": 0.9}, {}))
+    assert "sticks little slips" in sticks
+
+
 def test_shares_at_the_hardness_are_those_of_the_areas_of_the_table():
     """The remark counted cells, 64 % with 79 % of the load; the table's areas are 85 %, with 92 % of it."""
     facts = facts_of(with_(BALL, contact__behaviour="capped"))

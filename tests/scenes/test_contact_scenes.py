@@ -596,6 +596,23 @@ def test_the_lowest_load_of_a_path_is_a_pull_off_force_only_once_the_bodies_part
     assert words_of("mean_contact_pressure_Pa", {}) == "mean contact pressure"
 
 
+def test_a_load_beyond_the_pull_off_is_named_with_the_load_of_the_figures():
+    """1.5 pi w R = 11.8 uN and 2 pi w R = 15.7 uN: the advice was to lower the load or to raise the hardness."""
+    data = copy.deepcopy(ADHESIVE)
+    data["contact"] = {"adhesion": data["contact"]["adhesion"], "load": "5 uN"}
+    data["contact"]["load_path"] = ["20 uN", "-5 uN", "-20 uN"]
+    _, outcome, context = run(data)
+    assert outcome.status is Status.INFEASIBLE
+    assert outcome.summary["load_N"] == pytest.approx(-5e-6, rel=1e-6, abs=0)
+    assert outcome.where == (
+        "contact.load_path = -20 uN pulls the bodies apart (pull-off by JKR 11.8 uN, by DMT 15.7 uN);"
+        " for the pull-off take approach_path and approach."
+        " Figures are of -5 uN"
+    )
+    assert "that the bodies bear" in words_of("lowest_load_N", outcome.summary)
+    assert not has_code(context.notes, PULL_OFF_NOT_REACHED)
+
+
 def test_all_error_bars_lost_to_an_unsolved_coarser_grid_are_one_caution():
     lost = ErrorBars.unknown(("load", "approach"), NoBar.COARSER_UNSOLVED)
     context = PlainContext()

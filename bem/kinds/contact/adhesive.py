@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from bem.adhesion.figures import mean_contact_traction
 from bem.adhesion.zone import FEWEST_CELLS, cells_in_zone, zone_notes
+from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.kinds.contact.response import Response
 from bem.kinds.contact.scene import ContactScene
@@ -51,6 +52,20 @@ class AdhesiveResponse(Response):
     def notes(self, scene: ContactScene, grid: Grid) -> tuple[Note, ...]:
         """See `Response`."""
         return adhesion_notes(scene, grid, self.path)
+
+    def where(self, scene: ContactScene, grid: Grid) -> str:
+        """See `Response`; of a load that pulls the bodies apart, which of the path it is."""
+        path, loads = self.path, scene.contact.path(grid.area).get("loads", [])
+        solved = len(path.load) - (path.last.status is Status.INFEASIBLE)
+        if path.status is not Status.INFEASIBLE or solved >= len(loads) or loads[solved] >= 0:
+            return super().where(scene, grid)
+        forces = pull_off_forces(scene)
+        limits = "" if forces is None else f" (pull-off by JKR {si(forces[0], 'N')}, by DMT {si(forces[1], 'N')})"
+        done = f"Figures are of {si(loads[solved - 1], 'N')}" if solved else "Figures are of no equilibrium"
+        return (
+            f"contact.load_path = {si(loads[solved], 'N')} pulls the bodies apart{limits}; for the"
+            f" pull-off take approach_path and approach. {done}"
+        )
 
     def notes_apart(self) -> tuple[Note, ...]:
         """Return none: bodies that attract one another bear load without touching."""
@@ -134,11 +149,11 @@ def adhesion_notes(scene: ContactScene, grid: Grid, path: AdhesiveHistory) -> tu
         notes.append(ADHESION_JUMPS(jumps=int(path.jumped.sum()), load=float(path.load[first]), steps=len(path.load)))
     if len(path.load) > 1 and path.lowest_load < 0:
         forces = pull_off_forces(scene)
-        if not path.passes_pull_off:
+        if not path.passes_pull_off and path.status is not Status.INFEASIBLE:
             limits = "" if forces is None else "; a sphere comes off between {} (JKR) and {} (DMT)"
             limits = limits.format(*(si(force, "N") for force in forces or ()))
             notes.append(PULL_OFF_NOT_REACHED(lowest=path.lowest_load, limits=limits))
-        elif forces is not None:
+        elif path.passes_pull_off and forces is not None:
             notes.append(PULL_OFF_OF_RANGE(range=law.range, jkr=forces[0], dmt=forces[1]))
     if ends_apart(path):
         notes.append(ADHESION_ENDS_APART(lowest=path.lowest_load, area=float(path.contact_area.max())))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.errors import Status
 from bem.grid import FloatArray
 from bem.materials import Body
 from bem.scenes.records import Figure, GridRecord, Series, grid_map
@@ -232,22 +233,25 @@ class ContactRecord(GridRecord, WheelRailRecord):
 
 def summarise(scene: ContactScene, axes: Any, records: Sequence[ContactRecord | None]) -> dict[str, Any]:
     """Return the names of the layers, outermost first, where a case has stresses by layer, and what the lowest load of
-    an adhesive path is: "pull-off", "in contact" where the bodies did not part, or "mixed" over the cases."""
+    an adhesive path is: "pull-off", "in contact" where the bodies did not part, "borne" before a load that pulls them
+    apart, or "mixed" over the cases."""
     found: dict[str, Any] = {}
     if any(record is not None and record.layer_max_von_mises is not None for record in records):
         found["layer_material"] = list(layer_names(scene.stressed()[0]))
-    parted = {_passes_pull_off(one) for one in records if one is not None and one.lowest_load is not None}
-    if parted:
-        found["lowest_load_is"] = "mixed" if len(parted) > 1 else "pull-off" if True in parted else "in contact"
+    ends = {_end_of_path(one) for one in records if one is not None and one.lowest_load is not None}
+    if ends:
+        found["lowest_load_is"] = "mixed" if len(ends) > 1 else ends.pop()
     return found
 
 
-def _passes_pull_off(record: ContactRecord) -> bool:
-    """Return True if the lowest load of an adhesive path is minus the pull-off force."""
+def _end_of_path(record: ContactRecord) -> str:
+    """Return what the lowest load of an adhesive path is, see `summarise`."""
     from bem.adhesion.figures import passes_pull_off
 
     load, approach, area = record.path_load, record.path_approach, record.path_contact_area
     assert load is not None
     assert approach is not None
     assert area is not None
-    return passes_pull_off(load, approach, area)
+    if record.status is Status.INFEASIBLE:
+        return "borne"
+    return "pull-off" if passes_pull_off(load, approach, area) else "in contact"

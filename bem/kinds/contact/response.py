@@ -49,6 +49,10 @@ class Response(ABC):
         """Return the note on bodies that do not touch."""
         return standing_off(self.contact)
 
+    def where(self, scene: ContactScene, grid: Grid) -> str:
+        """Return what the status of the contact means, shown where it is not converged."""
+        return f"contact solve: {self.contact.status.message}, residual {self.contact.residual:.2g}"
+
     def figures(self, scene: ContactScene) -> Mapping[str, Any]:
         """Return figures that replace those of the pressure, or that only this law has."""
         return {}

@@ -96,7 +96,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         **errors,
         input_changes=changes,
         status=solution.status,
-        where=f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
+        where=response.where(scene, grid),
     )
 
 

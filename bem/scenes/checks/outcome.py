@@ -226,19 +226,26 @@ def elastic_pressure_above_hardness(facts: Facts, outcome: Outcome) -> Iterator[
 
 @outcome_check
 def pressure_beyond_linear_elasticity(facts: Facts, outcome: Outcome) -> Iterator[Note]:
-    """Strain under a contact is about p (1 - nu^2) / E of each body: 0.2 of the contact modulus is no small strain."""
+    """Strain under a contact is about p (1 - nu^2) / E of each body: 0.2 of the contact modulus is no small strain.
+
+    Attraction of the bodies acts at the same place as their pressure and strains them against it.
+    """
     case, maps = facts.cases[0], _pressures(outcome)
     if not facts.of_kind(*_DRY) or not maps:
         return
     from bem.materials import contact_modulus
 
     modulus = contact_modulus(case.lower.material, None if case.upper is None else case.upper.material)
-    plane, limit = maps[-1][-1], 0.2 * modulus
+    attraction, limit = outcome.variables.get("attraction"), 0.2 * modulus
+    plane = maps[-1][-1]
+    if attraction is not None:
+        plane = np.abs(plane - np.asarray(attraction.values).reshape(-1, *plane.shape)[-1])
     highest, share = float(plane.max()), _share_above(plane, limit)
     if highest > limit and (share > _MOST or not (case.smooth is not None and case.smooth.ratio > 0.2)):
         level = Level.OUTSIDE_MODEL if share > _MOST else None
-        highest = _highest_of_table(outcome, highest)
-        yield STRAIN_LARGE(level=level, pressure=highest, ratio=highest / modulus, share=share)
+        reason = "pressure" if attraction is None else "adhesive"
+        highest = _highest_of_table(outcome, highest) if attraction is None else highest
+        yield STRAIN_LARGE(level=level, pressure=highest, ratio=highest / modulus, share=share, reason=reason)
 
 
 def _highest_of_table(outcome: Outcome, on_cells: float) -> float:
@@ -393,7 +400,7 @@ def rolling_of_large_errors(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Figures of rolling whose error bars are half of them and more are not resolved."""
     if not facts.of_kind("rolling"):
         return
-    large = {}
+    large, stick = {}, numbers(outcome.summary.get("stick_fraction"))
     for name in ("traction_coefficient", "friction_work_N"):
         values, errors = (numbers(outcome.summary.get(key)) for key in (name, f"{name}_error"))
         ratios = [e / abs(v) for v, e in zip(values, errors, strict=False) if v != 0 and math.isfinite(e)]
@@ -402,9 +409,13 @@ def rolling_of_large_errors(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     if large:
         name = max(large, key=lambda key: large[key])
         words = {"traction_coefficient": "the force", "friction_work_N": "the friction work"}[name]
-        yield ROLLING_UNRESOLVED(figure=words, error=100 * large[name])
+        slips = name == "traction_coefficient" and bool(stick) and max(stick) < _LITTLE_STICKS
+        reason, share = ("slips", max(stick)) if slips else ("sticks", None)
+        yield ROLLING_UNRESOLVED(figure=words, error=100 * large[name], stick=share, reason=reason)
 
 
+_LITTLE_STICKS = 0.1
+"""Share of a rolling contact that sticks, below which a force that is small is a difference of opposite tractions."""
 _LARGE_ERROR = 0.5
 """Relative error bar from which a figure is an order of magnitude only."""
 
