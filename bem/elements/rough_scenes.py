@@ -58,16 +58,16 @@ _CREEP = 1e-3
 _SHIFT, _TURN = 3, 64
 """Cells by which the moving roughness is displaced in a cycle of running-in, as without the key `wear.shift`, and most
 cycles in which it is where it was."""
-_RUNNING_IN_RATE, _STABLE_STEP = 1e-16, 0.25
-"""Wear rate of running-in without one of the element [m^2/N], and compliance by wear of a cycle over that from cell to
-cell, as in scenes of own surfaces."""
+_STABLE_STEP = 0.25
+"""Compliance by wear of a cycle of running-in over that from cell to cell, as in scenes of own surfaces."""
 _SHORTEST_AVERAGE, _CELLS_PER_AVERAGE = 300e-9, 3
 """Averaging length of the particle criterion where cells are small enough [m], else cells to it."""
 _MOST_UNLIKE_CELLS = 1.5
 """Longer over shorter side of a cell up to which particles are sought: they are as large as the longer side allows."""
 ASSUMED_SLIDING, ASSUMED_WEAR_RATE, ASSUMED_CYCLES = 0.02, 2e-17, 1_000_000
 """Slide-to-roll ratio of running-in and lives in place of pure rolling (rolling bearings slip by 1 to 3 %). Wear rate
-of lives without one of the element [m^2/N], as in the template of running-in-life, and their cycles."""
+of both without one of the element [m^2/N], as in the template of running-in-life, and cycles of lives."""
+_RATE_IN_WORDS = f"the wear rate {1e9 * ASSUMED_WEAR_RATE:g} mm^3/(N*m) is assumed"
 _LEAST_SLIDING = 1e-4
 _SCAR = 0.5
 """Width of the scar on a body that does not pass over that of the patch, at the end of a life under the whole load: a
@@ -252,7 +252,7 @@ def mixed_scene(
     made |= {"sharing": sharing}
     if kind == "running-in":
         if not model.specific_wear_rate:
-            assumed.append("the wear rate is assumed")
+            assumed.append(_RATE_IN_WORDS)
         return made | _running_in(model, patch, rolls=contact.speeds[1] != 0), assumed
     return made, assumed
 
@@ -267,7 +267,7 @@ def _running_in(model: ElementModel, patch: Patch, *, rolls: bool) -> dict[str, 
     A cycle wears as much as keeps the step stable, half the compliance by which the bodies give way from cell to cell;
     the run has two turns of the moving roughness, and means over one.
     """
-    rate = model.specific_wear_rate or _RUNNING_IN_RATE
+    rate = model.specific_wear_rate or ASSUMED_WEAR_RATE
     cell = (patch.lengths[0] / patch.shape[0], patch.lengths[1] / patch.shape[1])
     bodies = Body(model.first.build()), Body(model.second.build())
     distance = _STABLE_STEP * cell_to_cell_compliance(Grid((32, 32), cell), bodies) / rate
@@ -286,7 +286,7 @@ def _running_in(model: ElementModel, patch: Patch, *, rolls: bool) -> dict[str, 
             "criterion": {
                 "kind": "archard",
                 "specific_wear_rate": f"{1e9 * rate:.6g} mm^3/(N*m)",
-                "distance": float(f"{distance:.1g}"),
+                "distance": float(f"{distance:.2g}"),
             },
             **particles,
             **({} if shift == _SHIFT else {"shift": shift}),
@@ -326,7 +326,7 @@ def life_scene(
     rate = model.specific_wear_rate
     if not rate:
         rate = ASSUMED_WEAR_RATE
-        assumed.append("the wear rate is assumed")
+        assumed.append(_RATE_IN_WORDS)
     passes = passes_in(made, model, rates)
     lower, upper = passes.slid
     law: dict[str, Any] = {"kind": "archard", "specific_wear_rate": f"{1e9 * rate:.6g} mm^3/(N*m)"}

@@ -142,6 +142,16 @@ def test_an_elements_own_correlation_length_is_that_of_its_scenes(name, along, w
 
 
 @pytest.mark.internal
+def test_running_in_and_life_assume_one_wear_rate_and_say_it():
+    """They assumed 1e-7 and 2e-8 mm^3/(N*m), both with "the wear rate is assumed" alone."""
+    element = element_of("roller")
+    made = [element.scene(element.worst(), kind) for kind in ("running-in", "running-in-life")]
+    rates = [one["wear"][law]["specific_wear_rate"] for one, law in zip(made, ("criterion", "law"), strict=True)]
+    assert rates[0] == rates[1]
+    assert all(f"the wear rate {rates[0]} is assumed" in one["description"] for one in made)
+
+
+@pytest.mark.internal
 def test_running_in_slides_where_the_element_rolls():
     """In pure rolling no cycle could wear anything, of which nothing was said."""
     element = element_of("roller")
