@@ -423,6 +423,7 @@ def film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | None
     return FilmOfBush(
         likely_power(element, runs),
         max(one.asperity_share or 0.0 for one in runs),
+        share_known=all(one.asperity_share is not None for one in runs),
         solved=all(one.mixed_friction is not None for one in runs),
         touching=any((one.film_ratio or 1.0) < 1 for one in runs),
         rise=0.0 if hottest is None or warm is None else max(hottest - warm, 0.0),

@@ -51,7 +51,7 @@ class FilmOfBush:
     Attributes
     ----------
     power : friction of film and asperities [W].
-    asperity_share : of the load.
+    asperity_share : of the load; zero where it is not known. share_known : whether it is.
     solved : whether share and friction are those of kind friction; else they are estimated.
     touching : whether the smooth film is thinner than the roughness.
     rise : of the hotter surface at its hottest above the bodies [K].
@@ -67,6 +67,7 @@ class FilmOfBush:
     rise: float = 0.0
     thickness: float = 0.0
     friction: float = 0.0
+    share_known: bool = True
 
 
 def pressure_words(model: PlainBushModel) -> str:
@@ -226,17 +227,41 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
         notes += _temperature_notes(model, film, temperature)
     if film is not None and model.rms_roughness is None:
         notes += _roughness_missing(model)
-    elif film is not None and film.asperity_share < LEAST_ASPERITY_SHARE and model.specific_wear_rate:
+    elif (
+        film is not None
+        and film.share_known
+        and film.asperity_share < LEAST_ASPERITY_SHARE
+        and model.specific_wear_rate
+    ):
         moves = "turns" if model.oscillation is None else "swings"
         notes.append(BUSH_WEARS_IN_FILM(share=film.asperity_share, reason=moves))
     journal = None if film is None else journal_of(model, film)
     if film is not None and journal is not None:
+        asperities = model.boundary_friction * film.asperity_share
         notes.append(
-            thick_film_note(film.thickness, film.friction, journal, model.radial_clearance, impossible="beyond")
+            thick_film_note(
+                film.thickness,
+                film.friction,
+                journal,
+                model.radial_clearance,
+                impossible="beyond",
+                rubbing=min(asperities / film.friction, 1.0) if asperities else 0.0,
+            )
         )
     if film is not None and film.touching:
-        notes.append(BUSH_TOUCHES(share=film.asperity_share, reason="solved" if film.solved else "estimated"))
+        notes.append(_touching(model, film))
     return tuple(notes)
+
+
+def _touching(model: PlainBushModel, film: FilmOfBush) -> Note:
+    """Return the note on a film that is thinner than the roughness."""
+    roughness = model.rms_roughness
+    assert roughness is not None
+    if model.radial_clearance < roughness:
+        return BUSH_TOUCHES(clearance=model.radial_clearance, roughness=roughness, reason="clearance")
+    if not film.share_known:
+        return BUSH_TOUCHES(reason="unknown")
+    return BUSH_TOUCHES(share=film.asperity_share, reason="solved" if film.solved else "estimated")
 
 
 def _roughness_missing(model: PlainBushModel) -> list[Note]:

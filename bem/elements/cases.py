@@ -257,7 +257,7 @@ def _rubbing(cases: Sequence[Element], runs: Sequence[Sequence[Running]]) -> dic
         power = friction_power_of(model, film)[0] if film is not None or model.friction is not None else None
         found["friction_coefficient"].append(_number(power) / (model.radial_load * model.sliding_speed))
         found["friction_power [W]"].append(_number(power))
-        found["asperity_load_share"].append(math.nan if film is None else film.asperity_share)
+        found["asperity_load_share"].append(film.asperity_share if film is not None and film.share_known else math.nan)
         found["bush_temperature [K]"].append(math.nan if power is None else bush_temperature(model, power))
         journal = None if film is None else journal_of(model, film)
         found[JOURNAL].append(math.nan if journal is None else journal.minimum_thickness)

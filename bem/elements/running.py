@@ -131,7 +131,7 @@ def _as_journal(model: PlainBushModel, contact: ElementContact, status: Status, 
     thickness, friction = journal.minimum_thickness, journal.friction
     power = friction * model.radial_load * model.sliding_speed
     ratio = None if model.rms_roughness is None else thickness / model.rms_roughness
-    share = None if ratio is None else 0.0
+    share = None if ratio is None or ratio < 1 else 0.0  # no estimate of shaft and bush that touch
     return Running(
         contact, status, thickness, ratio, friction, power, None, None, asperity_share=share, impossible_film=film
     )

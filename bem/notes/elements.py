@@ -281,6 +281,16 @@ BUSH_TOUCHES = define(
     reasons={
         "solved": "Asperities carry {share:.0%} of the load, for a random ground shaft with the roughness given.",
         "estimated": "By an estimate asperities carry {share:.0%} of the load.",
+        "unknown": Reason(
+            "The asperities' share of the load is not known: the film is an estimate as a rigid journal bearing.",
+            "Film and friction do not hold; take a smoother shaft, more clearance or less load.",
+        ),
+        "clearance": Reason(
+            "The radial clearance is {clearance:si m}, the rms roughness of both surfaces {roughness:si m}; the "
+            "asperities' share of the load is not known.",
+            "Check the unit of clearance; film, friction and temperature do not hold.",
+            headline="The radial clearance is smaller than the roughness, and surfaces touch.",
+        ),
     },
 )
 BUSH_FLOATS = define(
@@ -294,6 +304,13 @@ BUSH_FLOATS = define(
             "it filled, it is {journal:si m} thick with {turning:.2g}.",
             "The film is {thicker:.2g} times that of the journal estimate, the friction {lower:.2g} times; take both "
             "from a program for journal bearings.",
+        ),
+        "thick, touching": Reason(
+            "The film is {share:.0%} of the radial clearance. Of an endless cylinder on a flat it is {film:si m} thick "
+            "with a friction coefficient of film and asperities of {friction:.2g}; by an estimate as a journal bearing "
+            "of this length, all of it filled and without asperities, it is {journal:si m} thick with {turning:.2g}.",
+            "Asperities cause {rubbing:.0%} of the friction; the film is {thicker:.2g} times that of the journal "
+            "estimate. Take film and load share from a program for journal bearings with mixed lubrication.",
         ),
         "beyond": Reason(
             "Of an endless cylinder on a flat the film would be {film:si m} thick, more than the radial clearance of "
@@ -310,15 +327,23 @@ BUSH_FLOATS = define(
         ),
     },
 )
+_BOUNDS = (
+    "The film is {{share:.0%}} of the radial clearance, and its pressure reaches far around the shaft. It is at most "
+    "{{film:si m}} thick, as of an endless cylinder on a flat, from whose ends nothing leaks (friction coefficient{of} "
+    "{{friction:.2g}}), and by an estimate at least {{journal:si m}}, as of a rigid journal bearing of this length, "
+    "which does not flatten (friction coefficient {{turning:.2g}})."
+)
+"""Sentence on the two bounds; `of` says of what the friction is."""
 BUSH_BOUNDS = define(
     "bush-film-bounds",
     CAUTION,
     "The film of this bush is known only between two bounds.",
-    "The film is {share:.0%} of the radial clearance, and its pressure reaches far around the shaft. It is at most "
-    "{film:si m} thick, as of an endless cylinder on a flat, from whose ends nothing leaks (friction coefficient "
-    "{friction:.2g}), and by an estimate at least {journal:si m}, as of a rigid journal bearing of this length, which "
-    "does not flatten (friction coefficient {turning:.2g}).",
+    "",
     "Judge touching by the lower bound, {journal:si m}, or solve it with a program for elastic journal bearings.",
+    reasons={
+        "film": _BOUNDS.format(of=""),
+        "touching": _BOUNDS.format(of=" of film and asperities") + " Asperities cause {rubbing:.0%} of the friction.",
+    },
 )
 BUSH_WARMER_THAN_OIL = define(
     "bush-warmer-than-oil",

@@ -690,6 +690,37 @@ def test_a_temperature_that_is_no_key_of_the_file_has_no_usual_range():
     assert any("bulk_temperature" in note for note in all_notes(given, ()))
 
 
+def test_the_friction_of_asperities_is_not_compared_with_that_of_a_journal_bearing():
+    """Asperities have 18 % of the load and 97 % of the friction."""
+    table = without(WATER, "speed") | {
+        "shaft_diameter": "30 mm", "clearance": "15 um", "length": "30 mm", "housing": "aluminium", "speed": "20 rpm",
+        "radial_load": "900 N", "second": "pom", "rms_roughness": "2 um", "bulk_temperature": "40 degC",
+        "oil": {"grade": "ISO VG 46", "temperature": "40 degC"},
+    }  # fmt: skip
+    element = load_element(table)
+    runs = run_all(element)
+    (note,) = [one for one in answer_notes(element, runs) if one.code == BUSH_FLOATS.code]
+    assert note.values["reason"] == "thick, touching"
+    share = runs[0].asperity_share
+    assert note.values["rubbing"] == pytest.approx(0.12 * share / runs[0].mixed_friction, rel=1e-9)
+    assert "the friction" not in note.texts[2].replace("of the friction", "")
+    smooth = load_element(table | {"rms_roughness": "100 nm"})
+    (film,) = [one for one in answer_notes(smooth, run_all(smooth)) if one.code == BUSH_FLOATS.code]
+    assert film.values["reason"] == "thick"
+
+
+@pytest.mark.parametrize(("clearance", "reason"), [("0.1 um", "clearance"), ("0.81 um", "unknown")])
+def test_a_clearance_below_the_roughness_is_said_and_no_load_share(clearance, reason):
+    """The film of a journal bearing, thinner than the roughness, has no load share: it was one of a whole film."""
+    element = load_element(WATER | {"clearance": clearance, "specific_wear_rate": "1e-6 mm3/(N m)"})
+    runs = run_all(element)
+    assert runs[0].impossible_film
+    notes = answer_notes(element, runs)
+    assert [note.values["reason"] for note in notes if note.code == BUSH_TOUCHES.code] == [reason]
+    assert BUSH_WEARS_IN_FILM.code not in codes(notes)
+    assert "asperity_load_share" not in columns([element], [runs])
+
+
 def test_a_wall_is_a_layer_of_films_and_scenes(tmp_path):
     """The scene's pressure is that of the equivalent cylinder by harmonics, and its film thinner than without wall."""
     element = load_element(WATER)

@@ -139,6 +139,7 @@ def _bush_notes(scene: FrictionScene, solution: MixedSolution, rms: float) -> tu
         length=scene.contact.width,
         viscosity=scene.oil.build().viscosity,
         mean_speed=0.5 * sum(solution.speeds),
+        rubbing=abs(solution.boundary_force / (solution.friction * solution.load)) if solution.friction else 0.0,
     )
 
 

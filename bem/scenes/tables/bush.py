@@ -26,6 +26,8 @@ BOUNDED = 1 / 30
 """Film over the radial clearance from which the film of a journal bearing stands beside it as its lower bound: of the
 rigid endless cylinder's load (Martin's film, dp/dx = 0 at the outlet) 8 % is then carried beyond 45 degrees before the
 load line, where the gap of shaft and bush is no parabola and liquid leaves at the ends; of a film of c/100 2.6 %."""
+RUBS = 0.1
+"""Part of the friction that asperities cause from which notes on the film name it."""
 _SAME = 0.01
 """Relative deviation of the cylinder's radius from that of the bush that counts as none."""
 
@@ -62,7 +64,15 @@ class BushScene(Table):
             )
 
     def film_notes(
-        self, thickness: float, *, friction: float, load: float, length: float, viscosity: float, mean_speed: float
+        self,
+        thickness: float,
+        *,
+        friction: float,
+        load: float,
+        length: float,
+        viscosity: float,
+        mean_speed: float,
+        rubbing: float = 0.0,
     ) -> tuple[Note, ...]:
         """Return a note on a film that is a good part of the clearance; none of a thinner one.
 
@@ -74,6 +84,7 @@ class BushScene(Table):
         length : of the bush [m].
         viscosity : of the oil as it comes in [Pa s].
         mean_speed : entrainment speed [m/s].
+        rubbing : part of the friction that asperities cause.
         """
         journal = journal_beside(
             thickness,
@@ -86,7 +97,8 @@ class BushScene(Table):
         )
         if journal is None:
             return ()
-        return (thick_film_note(thickness, friction, journal, 0.5 * self.clearance, impossible="beyond-scene"),)
+        clearance = 0.5 * self.clearance
+        return (thick_film_note(thickness, friction, journal, clearance, impossible="beyond-scene", rubbing=rubbing),)
 
 
 def journal_beside(
@@ -116,7 +128,13 @@ def journal_beside(
 
 
 def thick_film_note(
-    thickness: float, friction: float, journal: JournalFilm, clearance: float, *, impossible: str
+    thickness: float,
+    friction: float,
+    journal: JournalFilm,
+    clearance: float,
+    *,
+    impossible: str,
+    rubbing: float = 0.0,
 ) -> Note:
     """Return the note on a film of the equivalent cylinder beside which that of a journal bearing stands.
 
@@ -127,20 +145,23 @@ def thick_film_note(
     journal : film of the journal bearing.
     clearance : difference of the radii [m].
     impossible : reason of `BUSH_FLOATS` for a film thicker than the clearance.
+    rubbing : part of the friction that asperities cause.
     """
+    touching = rubbing > RUBS
     values: dict[str, Any] = {
         "share": thickness / clearance,
         "film": thickness,
         "journal": journal.minimum_thickness,
         "friction": friction,
         "turning": journal.friction,
+        "rubbing": rubbing,
     }
     if thickness < THICK * clearance:
-        return BUSH_BOUNDS(**values)
+        return BUSH_BOUNDS(**values, reason="touching" if touching else "film")
     return BUSH_FLOATS(
         **values,
         thicker=thickness / journal.minimum_thickness,
         lower=friction / journal.friction,
         clearance=clearance,
-        reason="thick" if thickness <= clearance else impossible,
+        reason=("thick, touching" if touching else "thick") if thickness <= clearance else impossible,
     )
