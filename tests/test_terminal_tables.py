@@ -109,6 +109,17 @@ def test_columns_without_any_text_are_left_out_when_piped(capsys):
     assert capsys.readouterr().out == "a  b\n1  2\n3  4\n"
 
 
+@pytest.mark.parametrize(("scatter", "said"), [([None, 1e-12], 0), ([1e-12, 0.0016], 1)])
+def test_the_scatter_by_the_oil_is_explained_where_it_is_shown(scatter, said, capsys):
+    """ "± 0.0016 (oil)" stood at two of four speeds, and no line said of what."""
+    lists = {"speed_m_s": [0.03, 0.3], "friction": [0.11, 0.045], "friction_error": [1e-4, 1e-4]}
+    summary = lists | {"friction_oil_scatter": scatter, "scene": "a", "kind": "friction", "status": "converged"}
+    print_numbers(summary | {"wall_time_s": 1.0, "notes": []}, ["speed_m_s", "friction"])
+    shown = capsys.readouterr().out
+    assert shown.count("(oil) is the scatter among oils of one base") == said
+    assert shown.count("± 0.0016 (oil)") == said
+
+
 def test_a_sweep_prints_its_figures(capsys):
     points = {
         "over": {"contact.load": "N"},

@@ -430,7 +430,7 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str], lines: Ma
     """
     from bem.notes.accuracy import ERROR_BARS_LOST, NO_ERROR_BAR
     from bem.plots.report import NO_BAR, status_words, summary_rows
-    from bem.plots.tables import input_share_tables, is_list, place_tables
+    from bem.plots.tables import input_share_tables, is_list, place_tables, shows_oil_scatter
 
     known = [name for name in headline if summary.get(name) is not None]
     rows = summary_rows(summary, [name for name in known if not is_list(summary[name])])
@@ -449,6 +449,11 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str], lines: Ma
     print_lists(summary, known)
     if summary.get("combined_Sdq") is not None and any(f"{name}_error" in summary for name in known):
         print_text("± is the numerical error; how figures scatter from place to place of the surface is not in it.")
+    if shows_oil_scatter(summary, known):
+        print_text(
+            "± (oil) is the scatter among oils of one base, by their Eyring stress and limiting shear stress; boundary "
+            "friction has none."
+        )
     for item in place_tables(summary):
         table(item.head, item.rows, title=item.title, leading=item.leading)
     for item in input_share_tables(summary):

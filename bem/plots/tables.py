@@ -268,6 +268,13 @@ def scatters_of(name: str, summary: Mapping[str, Any]) -> dict[str, Any]:
     return {origin: scatter for origin, scatter in found.items() if scatter is not None}
 
 
+def shows_oil_scatter(summary: Mapping[str, Any], names: Sequence[str]) -> bool:
+    """Return True if any entry of the named figures is shown with its scatter by the oil; see `with_scatter`."""
+    found = [summary.get(scatter_key(name, OIL)) for name in names]
+    entries = [entry for values in found for entry in (values if isinstance(values, list) else [values])]
+    return any(isinstance(entry, int | float) and entry > _LEAST_SCATTER for entry in entries)
+
+
 def is_list(value: Any) -> bool:
     """Return True if a figure is a list that wants a table: of several values, or of cases."""
     return isinstance(value, list) and (len(value) > 1 or any(isinstance(item, Mapping) for item in value))
