@@ -323,6 +323,13 @@ LUMPED_HEAT_LIMIT = define(
             "off.",
             headline="Quick heat (lumped) errs here: most films are too thin, by up to a third.",
         ),
+        "fast-rolls": Reason(
+            "The thermal loading of the inlet, mu0 beta u^2/k, is {loading:.2g} (mu0 viscosity at ambient pressure, "
+            "beta its relative fall per kelvin, u entrainment speed, k thermal conductivity of the oil). In pure "
+            "rolling films were 1 to 4 % too thin at a loading of 0.03, 4 to 14 % at 0.26 and 5 to 33 % at 1.6, most "
+            "under heavy loads; friction was 2 to 5, 5 to 16 and 11 to 39 % too low.",
+            headline="Quick heat (lumped) errs here: films are too thin, by up to {most}.",
+        ),
         "fast-slides": Reason(
             "The thermal loading of the inlet, mu0 beta u^2/k, is {loading:.2g} (mu0 viscosity at ambient pressure, "
             "beta its relative fall per kelvin, u entrainment speed, k thermal conductivity of the oil), and the "
