@@ -164,7 +164,7 @@ def sticking_bars(
     found = {name: value for name, value in fine.items() if name in rules and math.isfinite(value)}
     grid = rules.errors(found, coarse, _indicators(case, fine, found), regime=regime_of(case))
     if rules is ROLL_RULES:
-        for name, least in _held_back(fine, coarse, limit).items():
+        for name, least in _held_back(case, fine, coarse, limit).items():
             if name in grid:
                 grid[name] = max(grid[name], least)
     exact = {name: 0.0 for name in found if name in given}
@@ -225,17 +225,24 @@ def _missed_stick(case: ContactCase, sticks: float) -> float:
     return _PART * missed if length < _SHORT and sticks < _CRESCENT else 0.0
 
 
-def _held_back(fine: Mapping[str, float], coarse: Mapping[str, float], limit: float) -> dict[str, float]:
+def _held_back(
+    case: ContactCase, fine: Mapping[str, float], coarse: Mapping[str, float], limit: float
+) -> dict[str, float]:
     """Return the least errors of rolling forces and their coefficient from the difference of the sticking areas.
 
     Forces fall short of friction x load by what sticks holds back, which goes with the square of its length (Carter
-    1926: F = 1 - (c / a)^2 of a strip of which c / a sticks): its relative error is twice that of what sticks.
+    1926: F = 1 - (c / a)^2 of a strip of which c / a sticks): its relative error is twice that of what sticks. With
+    spin forces fall short by opposite tractions, too. What sticks holds back no more than twice friction x pressure on
+    its area, from one direction to the opposite, and its pressure is at most the largest.
     """
     sticks = fine.get("stick_fraction", 0.0)
     force = math.hypot(*(fine.get(name, 0.0) for name in _FORCES))
     if not (sticks > 0 and 0 < force < limit):
         return {}
-    held = 2 * min(abs(sticks - coarse["stick_fraction"]) / sticks, 1.0) * (limit / force - 1)
+    pressure = case.solution.pressure
+    sharpness = float(pressure.max() / pressure[pressure > 0].mean())
+    most = min(limit / force - 1, 2 * sharpness * sticks * limit / force)
+    held = 2 * min(abs(sticks - coarse["stick_fraction"]) / sticks, 1.0) * most
     return {name: ROLL_RULES[name].error(held * fine[name], {}) for name in _CARRIED if name in fine}
 
 

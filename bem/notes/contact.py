@@ -257,8 +257,8 @@ ROLLING_UNRESOLVED = define(
         ),
         "slips": Reason(
             "{stick:%} of the contact sticks: spin makes nearly everything slip, and the force is a small difference of"
-            " opposite tractions. Its error bar, {error:.0f} % of it, may be far too wide.",
-            "Compare the force with that of a run with twice the cells (grid.shape).",
+            " opposite tractions. Its error bar is {error:.0f} % of it.",
+            "Take smaller cells (grid.shape).",
             headline="Spin makes the force of the rolling contact uncertain.",
         ),
     },
