@@ -7,7 +7,7 @@ import re
 import shutil
 import sys
 import time
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -408,8 +408,9 @@ def show_remarks(notes: Sequence[str]) -> None:
             print_text(f"  {note}")
 
 
-def _of_rows(text: str, rows: Sequence[str]) -> str:
-    """Return the text of a note on missing error bars with the figures of a table's rows alone; "" if it names none.
+def _without_hidden(text: str, hidden: Collection[str]) -> str:
+    """Return the text of a note on missing error bars without figures that the terminal does not show; "" if it names
+    no other.
 
     A note that names its first figures only stays as it is.
     """
@@ -418,9 +419,21 @@ def _of_rows(text: str, rows: Sequence[str]) -> str:
     found = re.fullmatch(r"(.*?No error bars for )(.*?)(\. .*)", text, re.DOTALL)
     if found is None or re.search(r" and \d+ more$", found[2]):
         return text
-    names = [name for part in found[2].split("; ") for name in (part, *re.split(r", | and ", part))]
-    named = [row for row in dict.fromkeys(rows) if row in names]
-    return found[1] + joined(named) + found[3] if named else ""
+    names = found[2].split("; ") if "; " in found[2] else re.split(r", | and ", found[2])
+    shown = [name for name in names if name not in hidden]
+    if len(shown) == len(names):
+        return text
+    between = "; ".join(shown) if any("," in name for name in shown) else joined(shown)
+    return found[1] + between + found[3] if shown else ""
+
+
+def _hidden_names(summary: Mapping[str, Any], headline: Collection[str]) -> set[str]:
+    """Return the names, as of notes, of the figures of a run that the terminal does not show."""
+    from bem.notes.accuracy import named
+    from bem.plots.tables import unit_of
+
+    names = {key: named([unit_of(key)[0]])[0] for key in summary}
+    return {name for key, name in names.items() if key not in headline} - {names[key] for key in headline}
 
 
 def print_numbers(summary: Mapping[str, Any], headline: Sequence[str], lines: Mapping[str, str] | None = None) -> None:
@@ -441,10 +454,10 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str], lines: Ma
     rows.append(("time", f"{summary['wall_time_s']:.1f} s"))
     table(("figure", "value"), rows, title=f"{summary['scene']} ({summary['kind']})")
     lost = any(note["code"] == ERROR_BARS_LOST.code for note in of_summary(summary))  # says why of all of them
-    barless = [name for name, value in rows if value.endswith(NO_BAR)]
-    if not lost and barless:
+    if not lost and any(value.endswith(NO_BAR) for _, value in rows):
+        hidden = _hidden_names(summary, known)
         for note in of_summary(summary):
-            if note["code"] == NO_ERROR_BAR.code and (text := _of_rows(note["text"], barless)):
+            if note["code"] == NO_ERROR_BAR.code and (text := _without_hidden(note["text"], hidden)):
                 print_text(text)
     print_lists(summary, known)
     if summary.get("combined_Sdq") is not None and any(f"{name}_error" in summary for name in known):

@@ -159,13 +159,16 @@ def test_reasons_below_the_table_name_its_rows_alone(capsys):
     notes = [
         no_error_bar(["friction", "loaded_friction"], NoBar.FREE_EDGE).as_dict(),
         no_error_bar(["loaded_contact_load"], NoBar.OF_KIND, why="they are for comparison").as_dict(),
+        no_error_bar(["friction, wear and worn surfaces"], NoBar.SINGLE_LOOP).as_dict(),  # the name of no figure
     ]
     known = {"status": "converged", "wall_time_s": 1.0, "scene": "s", "kind": "friction", "notes": notes}
-    print_numbers(known | {"friction": 0.1, "friction_error": None}, ["friction"])
+    beside = {"loaded_contact_load_N": 1.0, "loaded_friction": 0.1}
+    print_numbers(known | beside | {"friction": 0.1, "friction_error": None}, ["friction"])
     shown = " ".join(capsys.readouterr().out.split())
     assert "No error bars for friction coefficient. The contact reaches" in shown
     assert "loaded zone" not in shown
     assert "comparison" not in shown
+    assert "No error bars for friction, wear and worn surfaces. A single loop has none" in shown
 
 
 WEAR = {
