@@ -329,7 +329,8 @@ def test_every_roughness_says_of_which_region_it_is(kind):
         assert any(region in name_and_unit(name)[0] for region in regions), name
     shown = [name for name in names if name in get_kind(kind).headline]
     meant = {"wear": "contact region", "running-in": "contact region"}.get(kind, "surface")
-    assert all(meant in name_and_unit(name)[0] for name in shown)
+    # the deepest place, which the error of long wear steps is compared with, is that of the whole surface
+    assert all(meant in name_and_unit(name)[0] for name in shown if name != "largest_worn_depth_nm")
 
 
 def test_a_figure_of_a_life_is_shown_under_one_name():
