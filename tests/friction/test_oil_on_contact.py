@@ -95,7 +95,7 @@ def test_the_inlet_s_note_is_of_the_printed_friction_coefficient():
 
 def test_what_has_no_error_bar_is_named_as_a_second_balance():
     (figure,) = get_type_hints(CurveRecord, include_extras=True)["loaded_friction"].__metadata__
-    assert "a second balance, which counts the oil over another area" in figure.no_bar
+    assert "else those of a second balance" in figure.no_bar
 
 
 def test_missing_bars_of_an_extrapolated_film_are_said_once_and_by_the_names_of_the_table():

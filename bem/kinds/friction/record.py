@@ -31,8 +31,8 @@ _WAVES = "the waves are linear in the heights, and were compared with marches"
 _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="first")
 _LOADS = ("contact_load", "film_load")
 _OTHER = (
-    "they belong to a second balance, which counts the oil over another area and only shows how far friction and loads "
-    "depend on that area; it is solved to 0.1 % of the oil volume"
+    'they show how far friction and loads depend on the area over which oil is counted: with oil_volume = "loaded" '
+    "they are the run's own, with its error bars, else those of a second balance, solved to 0.1 % of the oil volume"
 )
 _other_oil = partial(_curve, no_bar=_OTHER)
 _supplied = partial(
