@@ -405,7 +405,7 @@ def _show(found: Element, chosen: ElementContact, runs: Sequence[Running]) -> No
     table(head, rows, title=title, right=range(2, len(head)), leading=2)
     if any(one.slide_roll_ratio < 0 for one in contacts):
         print_text(
-            "Slide-to-roll ratio and friction coefficient are those of body 1: negative where its surface is the "
+            "Slide-to-roll ratio and friction coefficient of the film are those of body 1: negative where its surface is the "
             "slower one, as before the pitch point of a driving pinion. Friction power is positive everywhere."
         )
     for sentence in found.found.geometry:
@@ -468,14 +468,14 @@ _HEADS = {
     "solved_minimum_film [m]": "minimum film thickness",
     "journal_bearing_film_estimate [m]": "film as journal bearing (estimate)",
     "solved_film_over_roughness": "lambda ratio",
-    "friction": "friction coefficient",
-    "friction_power [W]": "friction power",
+    "friction": "friction coefficient of the film",
+    "friction_power [W]": "friction power of the film",
     "rolling_loss [W]": "of it rolling loss",
     "oil_temperature [K]": "oil",
     "friction_power_with_asperities [W]": "friction power with asperities",
     "bush_temperature [K]": "bush",
-    "surface_temperature [K]": "surface",
-    "flash_temperature [K]": "flash",
+    "surface_temperature [K]": "hotter surface",
+    "flash_temperature [K]": "flash (of the film alone)",
     "wear_per_pass_1 [m]": "wear 1 per pass",
     "wear_per_pass_2 [m]": "wear 2 per pass",
 }
