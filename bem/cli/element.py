@@ -405,8 +405,8 @@ def _show(found: Element, chosen: ElementContact, runs: Sequence[Running]) -> No
     table(head, rows, title=title, right=range(2, len(head)), leading=2)
     if any(one.slide_roll_ratio < 0 for one in contacts):
         print_text(
-            "Slide-to-roll ratio and friction coefficient of the film are those of body 1: negative where its surface is the "
-            "slower one, as before the pitch point of a driving pinion. Friction power is positive everywhere."
+            "Slide-to-roll ratio and friction coefficient of the film are those of body 1: negative where its surface "
+            "is the slower one, as before the pitch point of a driving pinion. Friction power is positive everywhere."
         )
     for sentence in found.found.geometry:
         print_text(sentence)
