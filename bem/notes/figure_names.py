@@ -39,7 +39,7 @@ FIGURE_NAMES: dict[str, str] = {
     "step_error": "largest error of the worn depth of a place, by the last wear step",
     "particles_per_cycle": "particles per cycle of one body",
     "particles_per_distance": "particles per sliding distance, of one body",
-    "particles_per_volume": "particles per worn volume",
+    "particles_per_volume": "particles per volume worn in cycles with particles",
     "number_mean_radius": "particle equivalent radius, mean by number",
     "area_mean_radius": "particle equivalent radius, mean by area",
     "volume_mean_radius": "particle equivalent radius, mean by volume",

@@ -45,7 +45,10 @@ def share_outside(before: FloatArray, after: FloatArray, strip: NDArray[Any]) ->
     """Return the share of the worn volume beside a strip, weighted as for `strip_wear`; 0 where nothing wore."""
     depth = before - after
     total = float(depth.sum())
-    return 1.0 - float((depth * _weights(strip, depth.shape)).sum()) / total if total > 0 else 0.0
+    if not total > 0:
+        return 0.0
+    outside = 1.0 - float((depth * _weights(strip, depth.shape)).sum()) / total
+    return outside if abs(outside) > _ROUND_OFF else 0.0
 
 
 def width_of(strip: NDArray[Any], grid: Grid) -> float | None:
@@ -63,6 +66,8 @@ def width_of(strip: NDArray[Any], grid: Grid) -> float | None:
     return float(weights.sum(axis=0).max()) * grid.spacing[0]
 
 
+_ROUND_OFF = 1e-12
+"""Share of the worn volume outside a region below which it is that of the sums' rounding."""
 _WHOLE = 1e-9
 """Part of a cell by which it may miss a strip and still count as inside; fractions have the round-off of positions over
 a cell, below 1e-12."""

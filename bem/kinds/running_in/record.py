@@ -140,7 +140,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
         float | None,
         Figure(
             "per_mm3",
-            f"particles per volume worn from their body, {SETTLED}: one over their mean volume",
+            f"particles per volume worn from their body in cycles with them, {SETTLED}: one over their mean volume",
             headline=True,
             no_bar=pieces.FOLLOWS_CELL,
             optional=True,
