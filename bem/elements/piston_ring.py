@@ -62,10 +62,11 @@ class PistonRingModel(ElementModel):
     """A ring with a barrel face in a slider-crank engine. Body 1 is the liner, body 2 the ring.
 
     `tension`: tangential force that closes it. `height`: along the bore. `crown`: where the face touches, from its
-    lower edge, over the height.
+    lower edge, over the height. Its oil ends where the face does, and films with such a supply have no full heat.
     """
 
     element: Literal["piston-ring"] = "piston-ring"
+    thermal: Literal["off", "lumped"] = "lumped"
     bore: PositiveLength
     stroke: PositiveLength
     rod: PositiveLength

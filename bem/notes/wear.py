@@ -74,7 +74,7 @@ LIFE_DISTANCE_DIFFERS = define(
 LIFE_BARS_WIDE = define(
     "life-bars-wide",
     CAUTION,
-    "Error bars of the life are nearly as large as its figures.",
+    "Error bars of the life are as large as its figures or nearly so.",
     "That of {figure} is {share:.0%} of it: means over {positions} positions of two rough surfaces scatter.",
     "Set wear.positions = {more}, or take a larger patch.",
 )

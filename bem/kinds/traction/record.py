@@ -11,7 +11,7 @@ from bem.scenes.records import LAMBDA_WHOLE, OIL, OIL_SCATTER, Figure, Record, S
 from bem.scenes.waves import WaveRecord
 
 _along = partial(Series, ("x",))
-_HOTTEST = "in pure rolling the highest temperature lies at the pressure spike and follows the mesh"
+_HOTTEST = "the highest temperature may lie at the pressure spike, as in pure rolling, and then follows the mesh"
 _FORMULA = "the value is that of a formula"
 _ALGEBRA = "the energy balance closes to rounding"
 _of_supply, _hot = partial(Figure, optional=True), partial(Figure, "C", part_of=("film_rise",))

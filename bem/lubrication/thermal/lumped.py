@@ -164,7 +164,7 @@ def thermal_film(
     found = thermal.film.status is Status.CONVERGED
     notes = notes_of_film(thermal.film, lubricant, case.radius, case.contact_modulus, found=found)
     notes += notes_on_factors(case.flow_factors, thermal.minimum_thickness)
-    return replace(thermal, notes=notes + _limits(thermal, lubricant) + thermal.notes)
+    return replace(thermal, notes=notes + _limits(thermal, lubricant, starved=supply is not None) + thermal.notes)
 
 
 @dataclass
@@ -381,7 +381,8 @@ def _result(
     )
 
 
-def _limits(found: ThermalFilm, lubricant: Lubricant) -> tuple[Note, ...]:
-    """Return notes where lumped heat is inaccurate."""
+def _limits(found: ThermalFilm, lubricant: Lubricant, *, starved: bool) -> tuple[Note, ...]:
+    """Return notes where lumped heat is inaccurate; a starved film has no full heat to be sent to."""
+    remedy = "Take film and friction as estimates." if starved else 'Set thermal = "full".'
     rise = found.mean_film_temperature - float(lubricant.temperature or 0.0)
-    return heat_limits(found.inlet, found.film.speeds, rise, 'Set thermal = "full".')
+    return heat_limits(found.inlet, found.film.speeds, rise, remedy)
