@@ -25,6 +25,10 @@ def mean_contact_traction(state: AdhesiveSolution, law: AdhesionLaw) -> float:
     return state.contact.load / area - law.strength if area > 0 else 0.0
 
 
+_ALIKE = 1e-6
+"""Relative difference of loads of a path that are one load."""
+
+
 def passes_pull_off(load: FloatArray, approach: FloatArray, contact_area: FloatArray) -> bool:
     """Return True if the lowest load of a path is minus the pull-off force.
 
@@ -33,6 +37,8 @@ def passes_pull_off(load: FloatArray, approach: FloatArray, contact_area: FloatA
     load no state lies beyond the pull-off.
     load : [N], negative in tension; approach : [m]; contact_area : [m^2]; (n,) over the steps of the path.
     """
-    lowest = int(np.argmin(load))
-    touched = bool(np.any(contact_area[: lowest + 1] > 0))
-    return touched and lowest + 1 < len(load) and bool(load[lowest] < 0 and approach[lowest + 1] < approach[lowest])
+    least = float(load.min())
+    if not least < 0:
+        return False
+    lowest = np.flatnonzero(load[:-1] <= (1 - _ALIKE) * least)  # a way in and out may have one load but for rounding
+    return any(np.any(contact_area[: one + 1] > 0) and approach[one + 1] < approach[one] for one in lowest)

@@ -104,7 +104,9 @@ def follow_path(
         state = solve(value, states[-1] if states else None)
         if state.status is Status.INFEASIBLE and states:
             break
-        jumped.append(bool(states) and _jumps(solve, name, (path[number - 1], value), (states[-1], state)))
+        largest = max((abs(one.load) for one in states), default=0.0)
+        moved = bool(states) and (name == "load" or abs(state.load - states[-1].load) > _UNSEEN * largest)
+        jumped.append(moved and _jumps(solve, name, (path[number - 1], value), (states[-1], state)))
         states.append(state)
         if callback is not None:
             callback(number, state)
@@ -120,6 +122,11 @@ def follow_path(
         lowest=min(states, key=lambda state: state.load),
         status=failed[0] if failed else Status.INFEASIBLE if ended else Status.CONVERGED,
     )
+
+
+_UNSEEN = 1e-5
+"""Change of the load over the largest of the path below which a step of the approach is no jump: apart, the residual
+of the solver is as large."""
 
 
 def _imbalance(before: AdhesiveSolution, after: AdhesiveSolution) -> float:

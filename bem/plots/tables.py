@@ -538,7 +538,9 @@ def place_tables(summary: Mapping[str, Any]) -> list[FigureTable]:
         shown.append([_cell(value, factor) for value in values])
     rows = tuple((words, place, *cells) for (words, place, _), *cells in zip(found, *shown, strict=True))
     at_edge = any(row[2][2] == 0 for row in found)
+    beyond = any(row[2][0] is None or row[2][1] is None for row in found)
     title = "Places of the highest stresses" + (f". {AT_EDGE}" if at_edge else "")
+    title += f"{'' if at_edge else '.'} x and y of a stress beside the grid are left out." if beyond else ""
     return [FigureTable(title, ("stress", "in", *heads), rows, 2)]
 
 

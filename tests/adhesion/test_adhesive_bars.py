@@ -9,7 +9,7 @@ from bem.accuracy import ContactCase
 from bem.accuracy.adhesion import adhesive_bars
 from bem.accuracy.contact import figures_of
 from bem.adhesion import ExponentialAdhesion, follow_path
-from bem.adhesion.figures import mean_contact_traction
+from bem.adhesion.figures import mean_contact_traction, passes_pull_off
 from bem.convolution import displacement_operator
 from bem.errors import Status
 
@@ -67,3 +67,13 @@ def test_the_mean_traction_of_a_contact_carries_the_load_and_what_pulls_beside_i
     assert abs(carried - (0.5 * FORCE + beside)) < half_cell
     assert carried > 0.5 * FORCE + half_cell
     assert state.contact.load > 1.5 * carried  # of the pressure alone, as much as balances the attraction besides
+
+
+@pytest.mark.parametrize("inward", [-5.0 * (1 + 1e-9), -5.0, -5.0 * (1 - 1e-9)])
+def test_a_path_through_one_approach_twice_passes_the_pull_off_on_its_way_out(inward):
+    """The way in has the same load but for rounding, and the bodies go together there."""
+    approach = np.array([-3.0, -2.0, 0.0, 4.0, 0.0, -2.0, -6.0])
+    load = np.array([-1e-3, inward, -1.0, 20.0, -1.0, -5.0, -1e-9])
+    area = np.array([0.0, 2.0, 3.0, 6.0, 3.0, 2.0, 0.0])
+    assert passes_pull_off(load, approach, area)
+    assert not passes_pull_off(load[:4], approach[:4], area[:4])
