@@ -116,7 +116,7 @@ def test_the_plan_and_the_notes_know_of_it(tmp_path):
     summary = run_scene(SCENE, tmp_path / "run", settings=[*ASKED, *few], figures=False).summary
     notes = " ".join(note["text"] for note in summary["notes"])
     assert "(but for" in notes
-    assert "Sq final" in notes
+    assert "Sq of the worn body's contact region, final" in notes
 
 
 def test_random_loops_are_covered():

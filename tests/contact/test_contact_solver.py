@@ -212,7 +212,7 @@ def test_infeasible_problems_are_refused_before_any_work(problem):
     before = op.count.applications
     with pytest.raises(InfeasibleError, match="hardness x area"):
         solve_contact(gap, op, load=1.0, hardness=0.5)
-    with pytest.raises(InfeasibleError, match=r"load 2\.0 N"):  # a number of numpy's is shown as any other
+    with pytest.raises(InfeasibleError, match=r"load 2 N"):  # a number of numpy's is shown as any other
         solve_contact(gap, op, load=np.float64(2.0), hardness=1.0)
     with pytest.raises(InfeasibleError, match="mean gap"):
         solve_contact(gap, op, approach=0.1)

@@ -77,7 +77,9 @@ def test_profiles_of_the_catalogue_have_their_sources():
 
 
 def test_refusals_say_that_a_table_of_constants_is_allowed_and_what_is_not_given():
-    with pytest.raises(InputError, match="allowed: a table of constants, or one of"):
+    with pytest.raises(
+        InputError, match="allowed: a table with youngs_modulus, poissons_ratio and other constants, or one of"
+    ):
         plan_scene("coated-sphere", ['lower.material="tool-steel"'])
     with pytest.raises(InputError, match="none of correlation_length, hurst is given"):
         plan_scene("coated-sphere", ['lower.surface={kind="generated",rms_height="10 nm"}'])

@@ -42,7 +42,6 @@ from bem.scenes.context import Outcome
 from bem.scenes.kind import get_kind
 from bem.scenes.planner import machine_rate, show_seconds
 from bem.scenes.records import CONTACT, TRACK, region_words
-from bem.scenes.wearing import wears_on_a_track
 from bem.threads import get_threads
 
 _SERIES = {
@@ -234,6 +233,8 @@ def wear_outside_the_contact_region(facts: Facts, outcome: Outcome) -> Iterator[
     shares = numbers(outcome.summary.get("volume_outside_region"))
     many = [share for share in shares if share > _OUTSIDE]
     if many and facts.of_kind("running-in"):
+        from bem.scenes.wearing import wears_on_a_track
+
         region = TRACK if wears_on_a_track(facts.scene) else CONTACT
         words = region_words(region, outcome.summary.get("contact_region_width_um")) or "Hertz' contact"
         yield WEAR_OUTSIDE_REGION(share=max(many), of=_of(len(many), len(shares)), region=words)

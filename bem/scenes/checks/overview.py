@@ -12,7 +12,6 @@ from bem.quantities import si
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.hertz import SmoothContact, line_contact_on_layer
 from bem.scenes.checks.words import times
-from bem.scenes.wearing import wears_on_a_track
 
 if TYPE_CHECKING:
     from bem.lubrication import Lubricant
@@ -49,6 +48,8 @@ def bodies(facts: Facts) -> Rows:
             rows.append((f"{name} surface", "smooth"))
     if facts.surfaces and facts.of_kind("wear", "running-in"):
         worn = ("lower", "upper")[first.wearing_bodies[0]] if first.wearing_bodies else "worn"
+        from bem.scenes.wearing import wears_on_a_track
+
         on_track = bool(first.wearing_bodies) and wears_on_a_track(facts.scene)
         if not on_track or (facts.of_kind("running-in") and first.shape == "ellipsoid"):  # others wear the whole grid
             region = "track, which is as wide as the contact" if on_track else "contact region"
