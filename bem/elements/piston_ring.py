@@ -107,12 +107,16 @@ class PistonRingModel(ElementModel):
         return 2 * self.tension / self.bore + self.crown * gas * self.height
 
     def contacts(self) -> Contacts:
-        """Return the contacts over the cycle, half a step beside the turning points, where nothing is entrained."""
+        """Return the contacts over the cycle, beside the turning points, where nothing is entrained.
+
+        They lie half a step beside them, or an eighth at least where the turning points are no whole number of steps.
+        """
         step = self.cycle / self.points
+        first = 0.5 if self.points % round(self.cycle / math.pi) == 0 else 0.375
         around = math.pi * self.bore
         found, lost = [], 0
         for i in range(self.points):
-            angle = (i + 0.5) * step
+            angle = (i + first) * step
             load = self.line_load(angle) * around
             if load <= 0:
                 lost += 1

@@ -207,3 +207,11 @@ def test_films_without_heat_and_below_the_roughness_are_said():
     (thin,) = [note for note in ring(speed="1 rpm").notes() if note.code == "element-surfaces-touch"]
     assert (thin.values["touching"], thin.values["places"]) == (12, 12)
     assert not any(text.code == "element-surfaces-touch" for text in warm.notes())
+
+
+@pytest.mark.parametrize("points", [70, 72, 73, 90])
+def test_no_place_is_a_dead_centre_whatever_their_number(points):
+    """There nothing is entrained, and no film is to be found; an eighth of a step is the least distance."""
+    places = [one.place for one in ring(points=points).found.contacts]
+    apart = [abs(place / math.pi - round(place / math.pi)) for place in places]
+    assert min(apart) > 0.124 * 4 / points
