@@ -76,13 +76,13 @@ def prefixed(text: str) -> str:
     numbers before one unit.
     """
 
-    def shown(found: re.Match[str]) -> str:
+    def with_prefix(found: re.Match[str]) -> str:
         if _LISTED.search(text, 0, found.start()):
             return found[0]
         digits = sum(letter.isdigit() for letter in (found["digits"] or found["small"]).lstrip("-0."))
         return si(float(found["number"]), found["unit"], max(digits, 3))
 
-    return _RAW_NUMBER.sub(shown, text)
+    return _RAW_NUMBER.sub(with_prefix, text)
 
 
 def counted(number: int, noun: str) -> str:

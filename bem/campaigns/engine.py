@@ -257,12 +257,12 @@ def notes_of_path(by_case: Sequence[tuple[str, Sequence[str]]], named: int = 3) 
     """
     count = len(by_case)
 
-    def place(indices: list[int]) -> str:
+    def at_positions(indices: list[int]) -> str:
         labels = ", ".join(by_case[index][0].removeprefix("position ") for index in indices)
         few = f" ({labels})" if len(indices) <= named else ""
         return f"at {len(indices)} of {count} positions{few}"
 
-    merged = merge([notes for _, notes in by_case], place)
+    merged = merge([notes for _, notes in by_case], at_positions)
     return [note if note.where.startswith("at ") else note.at(f"at {count} of {count} positions") for note in merged]
 
 

@@ -122,7 +122,7 @@ def parse_axis(text: str) -> Axis:
         if not all(values):
             raise _refused(text, "has an empty value")
         if unit := _unit_of_last(values):
-            each = ", ".join(value if _NUMBER.fullmatch(value)[2] else f"{value} {unit}" for value in values)  # type: ignore[index]
+            each = ", ".join((*(f"{value} {unit}" for value in values[:-1]), values[-1]))
             raise InputError(
                 f'--over "{_shown(text)}": only the last value has a unit, and a number alone is in the SI unit; '
                 f'allowed: a unit at each, such as {key}="{each}"'
