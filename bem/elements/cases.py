@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 from types import MappingProxyType
@@ -196,8 +196,8 @@ def columns(
 def notes_of_cases(by_case: Sequence[Sequence[Note]]) -> list[Note]:
     """Return the notes of several cases, each once with its rows.
 
-    Which positions of a row a note is of is left out where it differs between the rows, and so are the names of the
-    places where contacts are wide for their bodies.
+    Where the positions of a note differ between its rows, their smallest and largest number stand for them. The names
+    of the places where contacts are wide for their bodies are left out where they differ.
 
     by_case : notes of each case, those of its films with their positions as `bem.elements.running.notes`.
     """
@@ -212,8 +212,26 @@ def notes_of_cases(by_case: Sequence[Sequence[Note]]) -> list[Note]:
     places: dict[Hashable, set[str]] = {}
     for note in chain.from_iterable(by_case):
         places.setdefault(identity(anywhere(note)), set()).add(note.where)
-    whole = [[anywhere(one) if len(places[identity(anywhere(one))]) > 1 else one for one in each] for each in by_case]
+
+    def of_rows(note: Note) -> Note:
+        anywhere_in_it = anywhere(note)
+        different = places[identity(anywhere_in_it)]
+        return anywhere_in_it.at(_position_range(different)) if len(different) > 1 else note
+
+    whole = [[of_rows(one) for one in each] for each in by_case]
     return merge(whole, lambda rows: f"row{'s' if len(rows) > 1 else ''} {', '.join(str(row + 1) for row in rows)}")
+
+
+def _position_range(places: Iterable[str]) -> str:
+    """Return "at 2 to 5 of 12 positions" of places "at 2 of 12 positions" and the like; an empty one is all."""
+    counted = [re.match(r"at (\d+) of (\d+) positions", place) for place in places]
+    of = {int(found[2]) for found in counted if found}
+    if len(of) != 1:
+        return "at some positions"
+    (number,) = of
+    at = [int(found[1]) if found else number for found in counted]
+    least = "" if min(at) == max(at) else f"{min(at)} to "
+    return f"at {least}{max(at)} of {number} positions"
 
 
 def _is_of_wide_places(note: Note) -> bool:

@@ -152,7 +152,8 @@ FILM_BY_SQUEEZE = define(
     reasons={
         "ring": (
             "At {places} of {all} angles, such as {first}, the speed changes faster than the film sinks under its "
-            "load: it is thicker than the steady one while the speed falls and thinner while it rises."
+            "load. It is thicker than the steady one while the speed falls, and after the reversal until it has sunk "
+            "to the steady one, which grows; only from there it is thinner."
         ),
         "follower": "Entrainment turns round at {angles}; steady scenes have no squeeze.",
     },

@@ -6,6 +6,7 @@ from bem import InputError
 from bem.elements.cases import load_cases, notes_of_cases
 from bem.elements.element import MODELS, element_template
 from bem.lubrication.oils.catalogue import find_oil
+from bem.lubrication.thermal.checks import lumped_errors
 from bem.notes.checks import SLOPES_LARGE
 from bem.notes.lubrication import LUMPED_HEAT_LIMIT
 
@@ -71,17 +72,28 @@ def test_a_grade_with_a_digit_too_many_proposes_the_grade_without_it():
 
 
 def test_a_note_on_films_of_several_cases_is_one_line():
-    """However many positions of each row it is of; other rows are not named, and another reason is another line."""
-    notes = [
-        LUMPED_HEAT_LIMIT(f"at {k} of 12 positions (B to {k})", reason="fast", loading=0.1 * k, limit=0.1, remedy="")
-        for k in (2, 3)
-    ]
-    whole = LUMPED_HEAT_LIMIT(reason="fast", loading=2.0, limit=0.1, remedy="")
+    """It says at how many positions of its rows it is of; other rows are not named, another reason is another line."""
+
+    def fast(where, loading, ratio):
+        nearest, film, friction = lumped_errors(loading, ratio)
+        about = {"loading": loading, "limit": 0.1, "nearest": nearest, "film": film, "friction": friction, "remedy": ""}
+        return LUMPED_HEAT_LIMIT(where, reason="fast", **about)
+
+    notes = [fast(f"at {k} of 12 positions (B to {k})", 0.1 * k, 0.1) for k in (2, 3)]
+    whole = fast("", 1.4, 0.5)
     (one,) = notes_of_cases([notes[:1], notes[1:], [], [whole]])
-    assert one.where == "rows 1, 2, 4"
-    assert one.values["loading"] == (0.2, 2.0)
+    assert one.where == "rows 1, 2, 4, at 2 to 12 of 12 positions"
+    assert one.values["loading"] == (0.2, 1.4)
+    assert one.values["nearest"] == (0.1, 0.5)
+    low, high = notes[0].values["film"], whole.values["film"]
+    assert one.values["film"] == (min(low[0], high[0]), max(low[1], high[1]))
     (one,) = notes_of_cases([notes[:1], [whole]])
-    assert one.where == ""
+    assert one.where == "at 2 to 12 of 12 positions"
+    other = fast("at 2 of 7 positions (1 to 2)", 0.2, 0.1)
+    (one,) = notes_of_cases([notes[:1], [other]])
+    assert one.where == "at some positions"
+    (same,) = notes_of_cases([notes[:1], notes[:1]])
+    assert same.where == notes[0].where
     slides = LUMPED_HEAT_LIMIT("at 1 of 12 positions", reason="slides", slide=0.5, remedy="")
     found = [note.where for note in notes_of_cases([notes[:1], [slides]])]
     assert found == ["row 1, at 2 of 12 positions (B to 2)", "row 2, at 1 of 12 positions"]
