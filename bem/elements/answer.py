@@ -102,7 +102,7 @@ _SUPERFINISHED = (
     "kind friction, asperities often carry less"
 )
 """Of roller bearings 51 % estimated against 35 % in the scene at a lambda ratio of 0.40, 26 against 20 % at 0.71."""
-_FAR_MORE = 1.5
+_FAR_MORE = 1.25
 """Usual friction power of ball bearings over that of their films from which a heat balance is said to be too cold."""
 _NEARLY_ALL = 0.9
 """Estimated load share of asperities above which new surfaces, which carry more, are said to carry nearly all."""
@@ -115,13 +115,15 @@ halved that leaves the temperatures of the oil."""
 class FrictionPower:
     """Friction power of an element [W].
 
-    film : of the oil films. with_asperities : estimate with asperity contact, which is boundary friction where there is
+    film : of the oil films. within_contacts : of it that of balls which slide within their curved contacts.
+    with_asperities : estimate with asperity contact, which is boundary friction where there is
     no steady film; None without roughness.
     down, up : scatter of `film` from the oil's constants; None but with the law of base oils.
     counted : share of the places that have a steady film.
     """
 
     film: float
+    within_contacts: float
     with_asperities: float | None
     down: float | None
     up: float | None
@@ -171,7 +173,12 @@ def friction_power(element: Element, runs: Sequence[Running]) -> FrictionPower:
     if all(one.scatter is not None for one in known):
         down, up = (mean(partial(_scattered, k)) for k in (0, 1))
     return FrictionPower(
-        mean(lambda one: one.power), mixed, down, up, 1 - found.mean(lambda one: 1.0, lambda one: not steady(one))
+        mean(lambda one: one.power),
+        mean(lambda one: 0.0 if one.sliding is None else one.sliding.power),
+        mixed,
+        down,
+        up,
+        1 - found.mean(lambda one: 1.0, lambda one: not steady(one)),
     )
 
 
@@ -183,18 +190,13 @@ def _power_with_asperities(one: Running, boundary: float) -> float:
     which weights the coefficient of sliding friction by the share of asperities, and not the rolling moment.
     """
     if one.mixed_friction is not None:
-        return one.mixed_friction * _slid(one)
-    return one.power + (one.asperity_share or 0.0) * (boundary * _slid(one) - (one.power - one.rolling_power))
-
-
-def _slid(one: Running) -> float:
-    """Return load times sliding speed [W]."""
-    return one.contact.load * abs(one.contact.speeds[0] - one.contact.speeds[1])
+        return one.mixed_friction * one.slid
+    return one.power + (one.asperity_share or 0.0) * (boundary * one.slid - (one.power - one.rolling_power))
 
 
 def _scattered(side: int, one: Running) -> float:
     """Return the scatter of a contact's friction power [W]: side 0 down, 1 up."""
-    return _slid(one) * (one.scatter or (0.0, 0.0))[side]
+    return one.slid * (one.scatter or (0.0, 0.0))[side]
 
 
 def likely_power(element: Element, runs: Sequence[Running]) -> float:
@@ -418,7 +420,7 @@ def film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | None
     if not runs:
         return None
     warm, own = element.model.film_temperature, friction_power(element, runs)
-    slid = sum(_slid(one) for one in runs)
+    slid = sum(one.slid for one in runs)
     hottest = max((one.surface for one in runs if one.surface is not None), default=None)
     return FilmOfBush(
         likely_power(element, runs),
@@ -709,22 +711,29 @@ def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str,
             )
         )
     elif isinstance(model, BearingModel):
-        rows.append(("friction moment", _moment(model, power.film)))
+        rows.append(("friction moment", _moment(model, power)))
     return [("friction power", "; ".join(said)), *rows]
 
 
-def _moment(model: BearingModel, power: float) -> str:
-    """Return the friction moment of a bearing in words: of the films, whose power is given [W], and what is missing."""
-    said = f"{plain_digits(1e3 * power / model.speed, 3)} N mm of the oil films"
+def _moment(model: BearingModel, power: FrictionPower) -> str:
+    """Return the friction moment of a bearing in words: of the films, and what is missing."""
+
+    def moment(part: float) -> str:
+        return f"{plain_digits(1e3 * part / model.speed, 3)} N mm"
+
+    said = f"{moment(power.film)} of the oil films"
     if model.length is not None:
         return f"{said}, without cage, roller ends, churning and seals"
-    said += " in pure rolling: sliding within the curved contacts (Heathcote) and spin of the balls are missing"
-    usual = 1e3 * usual_ball_moment(model)
+    said += (
+        f": {moment(power.film - power.within_contacts)} of rolling, {moment(power.within_contacts)} of sliding within "
+        "the curved contacts (Heathcote)"
+    )
     if model.axial_load:
-        return f"{said}, as are cage, churning and seals"
+        return f"{said}; without spin of the balls, cage, churning and seals"
+    usual = plain_digits(1e3 * usual_ball_moment(model), 3)
     return (
-        f"{said}, as are cage, churning and seals; the usual estimate, {USUAL_BALL_FRICTION:g} x load x bore / 2, is "
-        f"{plain_digits(usual, 3)} N mm"
+        f"{said}; without cage, churning and seals. The usual estimate of all, {USUAL_BALL_FRICTION:g} x load x bore / "
+        f"2, is {usual} N mm"
     )
 
 
@@ -760,7 +769,7 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
         warmest = max((one.surface for one in runs if one.surface is not None), default=math.nan)
         rise = warmest - (model.film_temperature or math.nan)
         warmer = f"rolling warms the surfaces by up to {rise:.2g} K" if rise >= 1 else "flash temperature below 1 K"
-        return f"{said}; {warmer}, as the surfaces roll without sliding"
+        return f"{said}; {warmer}, as both surfaces roll at one speed"
     return (
         f"{said}; highest flash temperature {hottest.flash:.3g} K at {place_words(element, hottest.contact)} "
         f"(Blok, with the film's friction, one temperature for both surfaces){unsolved}"

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
+from bem.elements.contact import ElementContact
 from bem.elements.element import Element
 from bem.elements.passes import NAMES
 from bem.elements.piston_ring import PistonRingModel
@@ -15,13 +17,14 @@ CITES = ("archard1953",)
 """Source of the wear law, a key of `bem/references.bib`."""
 _LAW = "; Archard's law with the whole load and the given wear rate"
 _ROLLS = "none: both surfaces roll at one speed without sliding"
+_BALLS_ROLL = "not known: both surfaces roll at one speed, and wear where balls slide within their contacts is left out"
 
 
 def wear_per_hour(element: Element) -> str:
     """Return the depth that an hour takes off each body, in words."""
     contacts, rates = element.found.contacts, element.found.passes
     if all(one.speeds[0] == one.speeds[1] for one in contacts):
-        return _ROLLS
+        return _rolling_words(contacts)
     if element.model.specific_wear_rate is None:
         return "not known: give specific_wear_rate, measured with this oil at a like lambda ratio"
     if isinstance(element.model, PistonRingModel):
@@ -35,6 +38,11 @@ def wear_per_hour(element: Element) -> str:
         depth, where = max((wear_per_pass(element, one)[body] or 0.0, one.name) for one in contacts)
         said.append(f"{name} {3600 * rate * depth * 1e6:.3g} um at {where}")
     return ", ".join(said) + _LAW
+
+
+def _rolling_words(contacts: Sequence[ElementContact]) -> str:
+    """Return the wear of contacts that roll at one speed in words."""
+    return _ROLLS if all(one.length is not None for one in contacts) else _BALLS_ROLL
 
 
 def _ring_wear(element: Element, ring: PistonRingModel) -> str:
@@ -82,7 +90,7 @@ def particles_per_hour(element: Element) -> str:
     if element.model.specific_wear_rate is None:
         return "not known: give specific_wear_rate, and mean_particle_volume"
     if rate == 0:
-        return _ROLLS
+        return _rolling_words(element.found.contacts)
     worn = f"{1e9 * rate:.3g} mm^3 of {'the bush' if isinstance(element.model, PlainBushModel) else 'both bodies'}"
     if one is None:
         return f"{worn}; for a number of particles give mean_particle_volume, measured or from kind wear"

@@ -6,10 +6,11 @@ n = 1.5 are Hertz' for both rings, exact. Rollers are cut into slices, which car
 profile and rings (n = 10/9, `reference_life`), tilted rings or not. Both surfaces roll at omega d_m (1 - gamma^2) / 4
 over either ring, gamma = D / d_m.
 
-Balls carry an axial load at contact angles of their own (`ball_load`). Spin and differential slip of balls are left
-out, as are edge pressure and skew of rollers. A contact of a roller has the load per length of its most loaded slice,
-and its friction is that of all slices. The line film of a scene takes the middle of a ball's ellipse, and no oil that
-leaves sideways. The centrifugal force is in the loads of the outer ring, not in how the load is shared.
+Balls carry an axial load at contact angles of their own (`ball_load`), and slide within their curved contacts
+(`differential_sliding`). Spin of balls is left out, as are edge pressure and skew of rollers. A contact of a roller has
+the load per length of its most loaded slice, and its friction is that of all slices. The line film of a scene takes the
+middle of a ball's ellipse, and no oil that leaves sideways. The centrifugal force is in the loads of the outer ring,
+not in how the load is shared.
 """
 
 from __future__ import annotations

@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING
 
 from bem.elements.bush_answer import journal_beside
 from bem.elements.contact import ElementContact
+from bem.elements.differential_sliding import DifferentialSliding, sliding_in_film
 from bem.elements.element import AT_MARK, Element
 from bem.elements.plain_bush import PlainBushModel
-from bem.elements.scuffing import flash_temperature
+from bem.elements.scuffing import flash_of_heat, flash_temperature
 from bem.errors import InputError, Status
 from bem.notes import Note
 from bem.notes.lubrication import FILM_SPIKE, OIL_TOO_HOT
@@ -55,6 +56,8 @@ class Running:
     mixed_friction : friction coefficient of film and asperities by kind friction; None where the share is an estimate.
     impossible_film : of a bush, the film of the equivalent cylinder [m] where it is thicker than the radial clearance;
     film and friction are then those of a journal bearing, an estimate, and temperatures are not known.
+    sliding : of a ball, its sliding within the curved contact, whose power is in `power`; None of other contacts and of
+    films that did not converge.
     lighter : of a roller, films of lighter slices on the same ring, as if they were on its whole length; `power` and
         `friction` are likewise of the most loaded slice, and `over_slices` sums up.
     """
@@ -74,7 +77,14 @@ class Running:
     mixed_friction: float | None = None
     rolling_power: float = 0.0
     impossible_film: float | None = None
+    sliding: DifferentialSliding | None = None
     lighter: tuple[Running, ...] = ()
+
+    @property
+    def slid(self) -> float:
+        """Load times sliding speed [W], of a ball the mean speed within the contact."""
+        within = 0.0 if self.sliding is None else self.sliding.speed
+        return self.contact.load * (abs(self.contact.speeds[0] - self.contact.speeds[1]) + within)
 
     @property
     def converged(self) -> bool:
@@ -103,6 +113,16 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
     film = figures["minimum_thickness"]
     if isinstance(element.model, PlainBushModel) and film > element.model.radial_clearance:
         return _as_journal(element.model, contact, found.status, film)
+    power, scatter, oil = figures["friction_power"], _scatter(found, scene.oil.build()), figures.get("film_temperature")
+    flash = flash_temperature(contact, figures["traction_coefficient"], modulus=element.modulus, bodies=element.bodies)
+    sliding = None
+    if contact.length is None and found.status is Status.CONVERGED:
+        sliding = sliding_in_film(contact, element.modulus, case.lubricant, figures["central_thickness"], oil)
+        power += sliding.power
+        flash = flash_of_heat(contact, sliding.heat, element.bodies)
+        if sliding.scatter is not None:
+            down, up = (each / (contact.load * sliding.speed) for each in sliding.scatter)
+            scatter = down, up
     shared = element.shared_friction(contact)
     if shared is not None and shared.hottest is not None:
         hottest = max(shared.hottest, hottest or 0.0)
@@ -112,15 +132,16 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
         film,
         figures.get("lambda_ratio"),
         figures["traction_coefficient"],
-        figures["friction_power"],
-        figures.get("film_temperature"),
+        power,
+        oil,
         hottest,
         _film_notes(element, found.notes),
-        _scatter(found, scene.oil.build()),
+        scatter,
         _asperity_share(element, figures["central_thickness"]) if shared is None else shared.asperity_share,
-        flash_temperature(contact, figures["traction_coefficient"], modulus=element.modulus, bodies=element.bodies),
+        flash,
         None if shared is None else shared.friction,
         rolling_power(found) * case.width,
+        sliding=sliding,
     )
 
 

@@ -43,15 +43,23 @@ def flash_temperature(
 
     friction : friction coefficient, of either sign. modulus : contact modulus [Pa].
     """
+    sliding = abs(contact.speeds[0] - contact.speeds[1])
+    heat = abs(friction) * contact.line_load(modulus) * sliding / math.sqrt(2 * contact.half_width(modulus))
+    return flash_of_heat(contact, heat, bodies)
+
+
+def flash_of_heat(contact: ElementContact, heat: float, bodies: tuple[Material, Material]) -> float | None:
+    """Return the flash temperature of a contact [K]; None without the bodies' thermal constants.
+
+    heat : of friction per length across the motion over the root of the length along it [W/m^1.5].
+    """
     effusivities = [_effusivity(body) for body in bodies]
     if any(one is None for one in effusivities):
         return None
-    sliding = abs(contact.speeds[0] - contact.speeds[1])
-    if sliding == 0:
+    if heat == 0:
         return 0.0
     taken = sum((one or 0.0) * math.sqrt(abs(speed)) for one, speed in zip(effusivities, contact.speeds, strict=True))
-    width = math.sqrt(2 * contact.half_width(modulus))
-    return FLASH_FACTOR * abs(friction) * contact.line_load(modulus) * sliding / (taken * width)
+    return FLASH_FACTOR * heat / taken
 
 
 def _effusivity(body: Material) -> float | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bem.elements import element_wear, rating_life, reference_life, running, scuffing
+from bem.elements import differential_sliding, element_wear, rating_life, reference_life, running, scuffing
 from bem.elements.bush_polymers import SERVICE_TEMPERATURE
 from bem.elements.cam_follower import CamModel
 from bem.elements.element import Element
@@ -68,6 +68,8 @@ def sources_of_element(element: Element) -> dict[str, list[str]]:
     found = hertz | ({} if element.model.film_oil is None else _FILM) | _OF_MODEL[type(element.model)]
     if isinstance(element.model, BearingModel) and element.model.rolling == "roller":
         found = found | {"palmgren1959": "stiffness of line contacts"}
+    elif isinstance(element.model, BearingModel) and element.model.film_oil is not None:
+        found = found | dict.fromkeys(differential_sliding.CITES, "sliding of balls within their contacts")
     if element.model.specific_wear_rate is not None:
         found = found | dict.fromkeys(element_wear.CITES, "wear")
     return {key: [method] for key, method in found.items()}

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -102,7 +102,6 @@ def oil_scatter(
     law = oil.shear_law
     if not isinstance(law, BaseOilShear):
         raise InputError(f'oil_scatter: shear_law "{law.name}" has no known scatter; allowed: "base_oil"')
-    known = rheology or _rheology(oil, law)
     if isinstance(solved, PointFilmSolution | RoughPointFilm):
         sheared, load = _sheared_point(solved, oil), solved.load
     else:
@@ -112,6 +111,23 @@ def oil_scatter(
         stress = of.shear_stress(sheared.newtonian, sheared.pressure, sheared.temperature)
         return float(np.sum(sheared.weight * stress)) / load
 
+    return constants_scatter(oil, friction, rheology)
+
+
+def constants_scatter(
+    oil: Lubricant, friction: Callable[[BaseOilShear], float], rheology: ShearRheology | None = None
+) -> OilScatter:
+    """Return a friction and its scatter from the scatter of the oil's constants.
+
+    Parameters
+    ----------
+    oil : with shear law "base_oil".
+    friction : any measure of friction over the shear law, in whose unit the result is.
+    rheology : as of `oil_scatter`.
+    """
+    law = oil.shear_law
+    assert isinstance(law, BaseOilShear)
+    known = rheology or _rheology(oil, law)
     middle, parts = friction(law), {}
     for name, constant in known.constants().items():
         if getattr(law, name) != constant.value:

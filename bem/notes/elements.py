@@ -64,10 +64,10 @@ KAPPA_ABOVE_FILM = define(
 BALANCE_WITHOUT_SLIDING = define(
     "balance-without-sliding",
     CAUTION,
-    "The heat balance has only the rolling friction of the balls' films: with the usual friction moment of such "
-    "bearings it gives {celsius:.0f} °C.",
-    "0.0015 x load x bore / 2 is {usual:.3g} W where the films have {films:.3g} W; sliding within the curved contacts "
-    "and spin are missing.",
+    "The heat balance has only the friction of the balls' films: with the usual friction moment of such bearings it "
+    "gives {celsius:.0f} °C.",
+    "0.0015 x load x bore / 2 is {usual:.3g} W where the films have {films:.3g} W; cage, churning and seals are "
+    "missing.",
     "Take film and lives as upper bounds, or give bulk_temperature.",
 )
 RATING_NOT_OF_GEOMETRY = define(
@@ -103,8 +103,8 @@ SURFACES_TOUCH = define(
         "slides": "That is so at {touching} of {places} places. The answer estimates what asperities carry and rub; "
         "the films themselves are smooth.",
         "rolls": Reason(
-            "That is so at {touching} of {places} places. The answer estimates what asperities carry, which do not rub "
-            "in pure rolling; the films themselves are smooth.",
+            "That is so at {touching} of {places} places. The answer estimates what asperities carry, which "
+            "hardly rub in rolling; the films themselves are smooth.",
             "Mixed friction of one contact: `bem element FILE --scene mixed.toml --kind friction` writes its scene; "
             "set speeds.slide_roll_ratio there, as asperities do not rub in pure rolling.",
         ),

@@ -424,4 +424,4 @@ def test_surfaces_that_roll_are_as_warm_as_the_figure_shows_them(rise, words):
     found = load_element(STEEL_BEARING)
     one = run_contact(found, found.worst())
     run = dataclasses.replace(one, flash=0.0, surface=found.model.oil.temperature + rise)
-    assert f"{words}, as the surfaces roll" in dict(answer(found, [run]))["temperatures"]
+    assert f"{words}, as both surfaces roll" in dict(answer(found, [run]))["temperatures"]
