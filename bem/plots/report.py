@@ -113,13 +113,18 @@ def status_words(summary: Mapping[str, Any]) -> str:
 
 
 def summary_rows(summary: Mapping[str, Any], names: Sequence[str]) -> list[tuple[str, str]]:
-    """Name and value of figures, with their error bars, spelt for people; roughness before and after in one row."""
+    """Name and value of figures, with their error bars, spelt for people; roughness before and after in one row.
+
+    Figures without a value, such as the name of a variant where there is one surface, have no row.
+    """
     rows = []
     for name in names:
         before = next((first for first, last in _CHANGES.items() if last == name and first in names), None)
         if before is not None:
             continue
         text, shown = with_error(name, summary)
+        if not shown:
+            continue
         if (after := _CHANGES.get(name)) in names:
             window = window_of(name, summary)
             text, shown = (

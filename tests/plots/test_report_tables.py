@@ -424,3 +424,8 @@ def test_figures_of_a_track_are_not_said_to_be_of_the_contact(region, width, wor
     assert window_of("Sq_final_nm", summary) == words
     assert window_of("worn_depth_nm", summary) == words
     assert window_of("wear_volume_um3", summary) == ""
+
+
+def test_figures_without_a_value_have_no_row():
+    summary = {"variant": "", "load_N": 500.0, "film_solves": 0}
+    assert [name for name, _ in summary_rows(summary, list(summary))] == ["load", "film solves"]
