@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 
 PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "": 0, "k": 3, "M": 6, "G": 9, "T": 12}
 """Prefixes of units and their powers of ten. Scenes and messages write "um"; axes and tables "µm"."""
@@ -98,6 +99,50 @@ def with_unit(value: float, unit: str) -> str:
 def plain_digits(number: float, digits: int = 2) -> str:
     """Return a number rounded to so many digits, without a power of ten up to a million: 110, not 1.1e+02."""
     return f"{float(f'{number:.{digits}g}'):g}" if math.isfinite(number) else "–"
+
+
+def digits_apart(columns: Sequence[Sequence[float]], least: int = 3, most: int = 6) -> list[int]:
+    """Return the significant digits of each column of a table, enough that no two rows look alike which are not.
+
+    Of rows that agree in `least` digits of all columns, the column in which they differ most gets as many as tell them
+    apart. Rows that agree in `most` digits count as alike.
+
+    Parameters
+    ----------
+    columns : numbers of each column, one for each row; NaN for none.
+    least, most : digits.
+    """
+    digits = [least] * len(columns)
+
+    def written(column: int, row: int, count: int) -> str:
+        return f"{columns[column][row]:.{count}g}"
+
+    def raised(first: int, second: int) -> bool:
+        """Raise the digits of the column in which two rows differ most; return False if they are alike."""
+        different = [
+            (math.inf if math.isnan(a - b) else abs(a - b) / max(abs(a), abs(b)), column)
+            for column, (a, b) in enumerate((values[first], values[second]) for values in columns)
+            if written(column, first, most) != written(column, second, most)
+        ]
+        if not different:
+            return False
+        column = max(different)[1]
+        while written(column, first, digits[column]) == written(column, second, digits[column]):
+            digits[column] += 1
+        return True
+
+    first_of: dict[tuple[str, ...], int] = {}
+    rows = range(len(columns[0]) if columns else 0)
+    again = True
+    while again:
+        again = False
+        first_of.clear()
+        for row in rows:
+            first = first_of.setdefault(tuple(written(i, row, n) for i, n in enumerate(digits)), row)
+            if first != row and raised(first, row):
+                again = True
+                break
+    return digits
 
 
 def with_signs(unit: str) -> str:

@@ -1,9 +1,20 @@
 """Prefixes of units and numbers with units: one table for texts, tables and axes."""
 
+import math
+
 import pytest
 
 from bem.errors import InputError
-from bem.quantities import plain_digits, prefix_for, prefixed, si, with_prefixes, with_signs, with_unit
+from bem.quantities import (
+    digits_apart,
+    plain_digits,
+    prefix_for,
+    prefixed,
+    si,
+    with_prefixes,
+    with_signs,
+    with_unit,
+)
 
 pytestmark = pytest.mark.internal
 
@@ -75,3 +86,15 @@ def test_units_without_prefixes_are_written_as_they_are():
 def test_all_ways_of_writing_micro_are_one_unit():
     found = with_prefixes("m", "uk")
     assert found == {"m": 0, "um": -6, "µm": -6, "μm": -6, "km": 3}
+
+
+def test_rows_of_a_table_get_digits_that_tell_them_apart():
+    load, radius = [1274.1, 1274.9, 1300.0, 1274.1], [4.77, 4.77, 4.77, 4.77 * (1 + 1e-12)]
+    assert digits_apart([load, radius]) == [4, 3]
+    assert digits_apart([[1.0, 1.0], [math.nan, math.nan]]) == [3, 3]
+    assert digits_apart([[1.0004, 1.0001], [2.0, 2.004]]) == [3, 4]  # the column in which they differ most
+    assert digits_apart([[1.0, 2.0], [5.00001, 5.00002]]) == [3, 3]  # told apart by another column
+    assert digits_apart([[1.0, 1.0 + 1e-7]]) == [3]
+    assert digits_apart([]) == []
+    # three rows alike in three digits
+    assert digits_apart([[1.0001, 1.0004, 1.00044]]) == [6]

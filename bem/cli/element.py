@@ -386,6 +386,7 @@ def _show(found: Element, chosen: ElementContact, runs: Sequence[Running]) -> No
     """Show all contacts as a table, with the solved films where there are any."""
     from bem.cli._terminal import print_text, table
     from bem.elements.answer import table_columns
+    from bem.quantities import digits_apart
 
     contacts = found.found.contacts
     mine = found.columns() | table_columns(found, runs)
@@ -394,10 +395,12 @@ def _show(found: Element, chosen: ElementContact, runs: Sequence[Running]) -> No
     shown = [key for key in _HEADS if key in mine and not (runs and key in _BY_FORMULA)]
     shown = [key for key in shown if not all(map(math.isnan, mine[key]))]
     units = {key: _unit(key, mine[key]) for key in shown}
+    values = {key: [units[key][1](value) for value in mine[key]] for key in shown}
+    digits = dict(zip(shown, digits_apart(list(values.values())), strict=True))
     rows = []
     marked = chosen if chosen in contacts else min(contacts, key=lambda one: abs(one.place - chosen.place))
     for i, one in enumerate(contacts):
-        cells = ["" if math.isnan(mine[key][i]) else units[key][1](mine[key][i]) for key in shown]
+        cells = ["" if math.isnan(values[key][i]) else f"{values[key][i]:.{digits[key]}g}" for key in shown]
         rows.append((f"{i + 1} <" if one is marked else str(i + 1), _contact_name(found, i), *cells))
     heads = [f"{_HEADS[key]} ({units[key][0]})" if units[key][0] else _HEADS[key] for key in shown]
     head = ["", "where", *heads]
@@ -412,17 +415,17 @@ def _show(found: Element, chosen: ElementContact, runs: Sequence[Running]) -> No
         print_text(sentence)
 
 
-def _unit(key: str, values: Sequence[float]) -> tuple[str, Callable[[float], str]]:
-    """Return the unit of a column's head and how its numbers are written: one prefix for all."""
+def _unit(key: str, values: Sequence[float]) -> tuple[str, Callable[[float], float]]:
+    """Return the unit of a column's head and the conversion of its numbers to it: one prefix for all."""
     from bem.plots.labels import prefix
     from bem.quantities import with_signs
 
     unit = key.partition(" [")[2].removesuffix("]")
     if unit == "K" and "flash" not in key:
-        return "°C", lambda value: f"{value - ZERO_CELSIUS:.3g}"
+        return "°C", lambda value: value - ZERO_CELSIUS
     known = [value for value in values if not math.isnan(value)]
     factor, shown = prefix(known, unit)
-    return with_signs(shown), lambda value: f"{value * factor:.3g}"
+    return with_signs(shown), lambda value: value * factor
 
 
 def _contact_name(found: Element, index: int) -> str:

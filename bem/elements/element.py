@@ -455,8 +455,9 @@ class Element:
             "description": "; ".join([f"{self.model.element}: {contact.name}", *_slice_words(contact), *assumed]),
         }
         bodies = self._body_tables()
+        bush = self._bush_table()
         if kind == "contact":
-            made = base | self._dry_scene(contact, bodies)
+            made = base | self._dry_scene(contact, bodies) | bush
             if contact.length is not None:
                 slice_width = with_unit(made["grid"]["lengths"][1], "m")
                 made["description"] += f"; a slice of {slice_width} of its {with_unit(contact.length, 'm')}"
@@ -465,18 +466,22 @@ class Element:
             self._check_heat()
             if isinstance(self.model, PlainBushModel):
                 base["description"] += "; the bush, at rest, creeps so that the slice has a steady temperature"
-                return base | self._rubbing_bush(self.model, contact, bodies)
+                return base | self._rubbing_bush(self.model, contact, bodies) | bush
             return base | rubbing_scene(self.model, contact, bodies, self._patch_modulus)
         film, more = self._film_scene(contact, bodies, kind)
         if kind == LIFE:
             more.append(self._cycle_words(film))
         if isinstance(self.model, PlainBushModel) and kind in ("traction", *MIXED, LIFE):
             more = [*more, *self._film_bounds(self.model, contact)]
-        if isinstance(self.model, PlainBushModel) and kind in ("traction", "friction"):
-            bore = self.model.shaft_diameter + self.model.clearance
-            film = {**film, "bush": {"bore": bore, "clearance": self.model.clearance}}
         base["description"] = "; ".join([base["description"], *more])
-        return base | film
+        return base | film | bush
+
+    def _bush_table(self) -> dict[str, Any]:
+        """Return the table `bush` of a scene in its key; none of other elements."""
+        if not isinstance(self.model, PlainBushModel):
+            return {}
+        bore = self.model.shaft_diameter + self.model.clearance
+        return {"bush": {"bore": bore, "clearance": self.model.clearance}}
 
     def _cycle_words(self, film: Mapping[str, Any]) -> str:
         """Return the number of cycles of a life, what a cycle is and how long they take, in words."""

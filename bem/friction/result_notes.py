@@ -87,7 +87,7 @@ def coating_notes(setup: MixedSetup) -> tuple[Note, ...]:
             )
             if ratio > THICK_LAYER and max(stiffer, 1 / stiffer) > UNLIKE_LAYER:
                 values: dict[str, Any] = {"ratio": float(ratio), "stiffer": float(stiffer)}
-                modulus = _modulus_on_layer(setup, bodies)
+                modulus = film_modulus_on_layer(setup)
                 if modulus is None:
                     return (FILM_WITHOUT_LAYERS(**values, reason="thick"),)
                 reason = "thick-repeats" if setup.repeated_cell else "thick-held"
@@ -95,12 +95,13 @@ def coating_notes(setup: MixedSetup) -> tuple[Note, ...]:
     return (FILM_WITHOUT_LAYERS(ratio=float(thickest / half_width), reason="thin"),)
 
 
-def _modulus_on_layer(setup: MixedSetup, bodies: tuple[Body, ...]) -> float | None:
+def film_modulus_on_layer(setup: MixedSetup) -> float | None:
     """Return the contact modulus with which the film's cylinder is as wide as on the layer of one of two bodies [Pa].
 
     None under a ball, without a second body, and with other layers than one.
     """
     contact = setup.smooth
+    bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
     layers = [layer for body in bodies for layer in body.layers]
     if not isinstance(contact, LineContact) or len(bodies) != 2 or len(layers) != 1:
         return None

@@ -40,9 +40,12 @@ from bem.notes.elements import (
     NO_HEAT,
     VISCOSITY_FIXED,
 )
+from bem.notes.general import VALUE_UNUSUAL
+from bem.quantities import si
 from bem.reference_solutions.journal_bearing import journal_film, sommerfeld_number
 from bem.scenes.checks import examine, scene_warnings
 from bem.scenes.checks.overview import common
+from bem.scenes.checks.plausible import notes_over
 from bem.scenes.edit import table_text
 from bem.scenes.load import load_scene
 
@@ -333,6 +336,35 @@ def test_a_heat_balance_where_the_film_just_fills_the_clearance():
     assert "the friction jumps" in dict(answer(element, [one]))["temperatures"]
     slightly = balance_heat(load_element(without(hot, "rms_roughness") | {"heat_balance": {"conductance": "0.02 W/K"}}))
     assert "jumps" not in dict(answer(slightly, run_all(slightly)))["temperatures"]
+
+
+@pytest.mark.parametrize("kind", ["contact", "friction", "running-in", "traction", "surface-temperature"])
+def test_the_radius_of_a_close_bush_s_cylinder_is_not_doubted(kind):
+    """Bore and clearance of the scene confirm 30 m, which was taken for a wrong unit; without them it is doubted."""
+    close = {"shaft_diameter": "60 mm", "clearance": "60 um", "length": "60 mm", "radial_load": "3 kN"}
+    element = load_element(WATER | close | {"oil": {"grade": "ISO VG 32", "temperature": "40 degC"}})
+    scene = element.scene(element.worst(), kind)
+    key = {"traction": "roller", "contact": "shape", "surface-temperature": "shape"}.get(kind, "contact")
+    assert scene[key]["radius"] == pytest.approx(30.03)
+    doubted = [
+        [note for note in notes_over(load_scene(one)) if note.code == VALUE_UNUSUAL.code and "radius" in note.where]
+        for one in (scene, without(scene, "bush"))
+    ]
+    assert [len(one) for one in doubted] == [0, 1]
+    with pytest.raises(InputError, match=f"{key}.radius is not that of bush.bore"):
+        load_scene(scene | {key: scene[key] | {"radius": "3 m"}})
+
+
+def test_the_run_of_a_bush_s_running_in_says_that_its_film_is_too_thick(tmp_path):
+    """They were in the description alone. The film is that of the element, on the wall as a layer."""
+    element = load_element(LIGHT | {"radial_load": "600 N"})
+    scene = element.scene(element.worst(), "running-in")
+    scene["cycles"] = {"count": 4, "averaged": 2, "settled": 2}
+    done = run_scene(scene, tmp_path / "run", figures=False).summary
+    (said,) = (note["text"] for note in done["notes"] if note["code"] == BUSH_FLOATS.code)
+    (answered,) = (note for note in all_notes(element, run_all(element)) if note.code == BUSH_FLOATS.code)
+    assert si(answered.values["film"], "m") in said
+    assert si(answered.values["journal"], "m") in said
 
 
 @pytest.mark.parametrize(("kind", "places"), [("traction", "roller.radius"), ("friction", "contact.radius")])

@@ -22,6 +22,7 @@ from bem.scenes.common import (
 )
 from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
+from bem.scenes.tables.bush import BushScene, check_equivalent
 from bem.scenes.tables.pressing import ContactControl, ContactOutputs, StressedScene
 from bem.scenes.units import Length, Speed, Time
 
@@ -151,6 +152,12 @@ class ContactScene(StressedScene):
     contact: AdhesiveControl = key("Control of the contact: load, pressure, approach or gap.", "basic")
     outputs: ContactOutputs = key("Results besides pressure, gap and displacement.", "basic", default=ContactOutputs())
 
+    bush: BushScene | None = key(
+        "Bush of which the cylinder is the equivalent: its bore and clearance confirm the radius.",
+        "expert",
+        default=None,
+    )
+
     def cited_methods(self) -> Iterator[Mapping[str, str]]:
         """See `SceneModel`."""
         yield from super().cited_methods()
@@ -171,6 +178,11 @@ class ContactScene(StressedScene):
             self.lower.build(), self.upper.build(), self.contact.friction
         ):
             yield sources.COUPLING
+
+    @model_validator(mode="after")
+    def _equivalent(self) -> ContactScene:
+        check_equivalent(self.bush, self.shape.radius if self.shape.kind == "cylinder" else None, "shape.radius")
+        return self
 
     @model_validator(mode="after")
     def _curved_rail_pressed_alone(self) -> ContactScene:

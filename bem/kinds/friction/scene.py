@@ -14,10 +14,10 @@ from bem.kinds.friction.patch import with_patch
 from bem.kinds.friction.waves import FrictionFilmScene, check_flattening
 from bem.scenes import build, sources
 from bem.scenes.axes import Axis, listed, variants
-from bem.scenes.common import LineGridScene, OutputsScene, Repetitions, problem
+from bem.scenes.common import LineGridScene, OutputsScene, Repetitions
 from bem.scenes.keys import key
 from bem.scenes.records import Figure
-from bem.scenes.tables.bush import BushScene
+from bem.scenes.tables.bush import BushScene, check_equivalent
 from bem.scenes.tables.sharing import CurveScene, SurfaceVariant
 
 
@@ -57,10 +57,8 @@ class FrictionScene(CurveScene):
 
     @model_validator(mode="after")
     def _equivalent(self) -> FrictionScene:
-        if self.bush is not None:
-            if self.contact.point_radii is not None or self.contact.radius is None:
-                raise problem("a table bush under a ball", "a cylinder, or no table bush")
-            self.bush.check_radius(self.contact.radius, "contact.radius")
+        point = self.contact.point_radii is not None
+        check_equivalent(self.bush, None if point else self.contact.radius, "contact.radius")
         return self
 
     @model_validator(mode="after")

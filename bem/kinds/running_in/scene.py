@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Literal
 
+from pydantic import model_validator
+
 from bem.scenes import build, pieces, sources, wearing
 from bem.scenes.axes import Axis, changed
 from bem.scenes.common import PositivePressure, Repetitions
@@ -16,6 +18,7 @@ from bem.scenes.keys import key
 from bem.scenes.records import (
     Figure,
 )
+from bem.scenes.tables.bush import BushScene, check_equivalent
 from bem.scenes.tables.sharing import OneLoadScene, RunningInCycles, WearingSharing
 from bem.scenes.tables.wear_model import WearScenePart
 from bem.wear.criterion import StressCriterion
@@ -38,12 +41,23 @@ class RunningInScene(OneLoadScene):
     repetitions: Repetitions = key(
         "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1
     )
+    bush: BushScene | None = key(
+        "Bush of which the cylinder is the equivalent: films too thick for its clearance are noted.",
+        "expert",
+        default=None,
+    )
 
     def cited_methods(self) -> Iterator[Mapping[str, str]]:
         """See `SceneModel`."""
         yield from super().cited_methods()
         if isinstance(self.wear.finds_particles, StressCriterion):
             yield sources.STRESSES
+
+    @model_validator(mode="after")
+    def _equivalent(self) -> RunningInScene:
+        point = self.contact.point_radii is not None
+        check_equivalent(self.bush, None if point else self.contact.radius, "contact.radius")
+        return self
 
 
 def resolve(scene: RunningInScene) -> RunningInScene:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bem.errors import Status
 from bem.grid import FloatArray
 from bem.kinds.running_in.record import RunningInRecord
 from bem.kinds.running_in.scene import RunningInScene
@@ -16,8 +17,10 @@ from bem.scenes.lubrication import notes_of_balance
 from bem.scenes.third_bodies import tell_of_third_bodies
 
 if TYPE_CHECKING:
+    from bem.notes import Note
+    from bem.scenes.tables.bush import BushScene
     from bem.wear import RunningIn, RunningInState
-    from bem.wear.mixed import MixedCycles
+    from bem.wear.mixed import MixedContact, MixedCycles
 
 
 def wear_down(
@@ -83,7 +86,41 @@ def wear_down(
     tell_of_third_bodies(context, found.third_body_load_share)
     share = found.film_load / (found.film_load + found.contact_load)
     tell(context, notes_of_balance(shared.notes, shared.film.notes, found.friction_run_in, share))
+    if scene.bush is not None:
+        tell(context, _bush_notes(scene.bush, found, step))
     return found
+
+
+def _bush_notes(bush: BushScene, found: RunningInRecord, step: MixedContact) -> tuple[Note, ...]:
+    """Return the note on a film under the whole load that is too thick for the bush of the scene.
+
+    The film is that of the unworn bodies, of a bush with a wall that on the layer.
+    """
+    from bem.friction.result_notes import film_modulus_on_layer
+    from bem.friction.smooth import LineContact
+    from bem.lubrication import solve_line_film
+
+    setup, contact = step.setup, step.setup.smooth
+    assert isinstance(contact, LineContact)
+    film = step.table.under(setup.load).minimum_thickness
+    modulus = film_modulus_on_layer(setup)
+    if modulus is not None:
+        whole = solve_line_film(
+            load=setup.load / contact.width, radius=contact.radius, contact_modulus=modulus, speeds=step.speeds,
+            lubricant=setup.lubricant,
+        )  # fmt: skip
+        if whole.status is Status.CONVERGED:
+            film = whole.minimum_thickness
+    friction = abs(found.friction_run_in)
+    return bush.film_notes(
+        film,
+        friction=friction,
+        load=setup.load,
+        length=contact.width,
+        viscosity=setup.lubricant.viscosity,
+        mean_speed=0.5 * sum(step.speeds),
+        rubbing=abs(found.boundary_friction_part) / friction if friction else 0.0,
+    )
 
 
 def _frame_cycles(count: int) -> list[int]:

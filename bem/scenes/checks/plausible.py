@@ -26,6 +26,8 @@ from bem.scenes.walk import own_keys
 
 _MOST_SCENES = 256
 """Scenes of a key `over` that are looked at."""
+_EQUIVALENT_RADII = frozenset(("contact.radius", "roller.radius", "shape.radius"))
+"""Keys of the radius of a cylinder, which a table `bush` beside them confirms."""
 Values = Iterator[tuple[str, UsualRange, float]]
 
 
@@ -77,9 +79,11 @@ def oils_at_one_temperature(scene: SceneModel, over: Collection[str]) -> list[No
 
 
 def values_over(scene: SceneModel) -> Values:
-    """As `values_of`, of the scenes at all combinations of the values of `over`."""
+    """As `values_of`, of the scenes at all combinations of the values of `over`, without a radius that a table `bush`
+    confirms."""
     for own in scenes_over(scene)[:_MOST_SCENES]:
-        yield from values_of(own)
+        confirmed = _EQUIVALENT_RADII if getattr(own, "bush", None) is not None else frozenset()
+        yield from (found for found in values_of(own) if found[0] not in confirmed)
 
 
 def notes_on_table(table: Table) -> list[Note]:

@@ -101,6 +101,26 @@ class BushScene(Table):
         return (thick_film_note(thickness, friction, journal, clearance, impossible="beyond-scene", rubbing=rubbing),)
 
 
+def check_equivalent(bush: BushScene | None, radius: float | None, name: str) -> None:
+    """Refuse a table `bush` whose equivalent is another cylinder, or that stands beside a shape with two radii.
+
+    Parameters
+    ----------
+    bush : table of a scene, if it has one.
+    radius : of the scene's cylinder [m]; None of another shape.
+    name : of its key.
+
+    Raises
+    ------
+    PydanticCustomError : another radius, or no cylinder.
+    """
+    if bush is None:
+        return
+    if radius is None:
+        raise problem("a table bush without a cylinder", "a cylinder, or no table bush")
+    bush.check_radius(radius, name)
+
+
 def journal_beside(
     thickness: float,
     *,
