@@ -3,9 +3,9 @@
 1. Make each step once whole and once in two halves (`advance`).
 2. Their difference is the error of the halves, since a round is of first order. Accept the halves if it is within the
    tolerance; else halve the step.
-3. Double the next step where the error is below 0.4 of the tolerance. Steps double and halve from the first one, so
-   that operators are reused. A step cut to the longest allowed or to the end of the life is no power of two of the
-   first, nor are those that follow if it was rejected.
+3. Double the next step where the error is below 0.4 of the tolerance (`bem.life.steps`). Steps double and halve from
+   the first one, so that operators are reused. A step cut to the longest allowed or to the end of the life is no power
+   of two of the first, nor are those that follow if it was rejected.
 
 A state holds all that the next step needs, so a life that is stopped and resumed ends in the same bits. Cycle jumps
 with step doubling are our own. Cost: three rounds per step; each half that becomes a whole step is reused.
@@ -23,6 +23,7 @@ import numpy as np
 from bem.errors import ConvergenceError
 from bem.grid import FloatArray
 from bem.life.positions import PositionContact, mean_over
+from bem.life.steps import next_trial
 from bem.life.surfaces import LifeCase, Round, Surfaces, solve_round
 from bem.wear.contact_step import ContactStart
 from bem.wear.setup import LOWER, UPPER
@@ -133,11 +134,9 @@ def advance(case: LifeCase, state: LifeState) -> LifeState:
     cycles = case.cycles if step >= case.cycles - state.cycles else state.cycles + step
     last = float(state.table[-1, -1])
     row = _row(end, state.first, cycles, step, (error, last + missed))
-    longer = 2.0 if error < 0.4 * case.tolerance else 1.0
-    tried = step if step >= state.step or rejected > state.rejected else state.step
     return LifeState(
         cycles,
-        tried * longer,
+        next_trial(state.step, step, error, case.tolerance, rejected=rejected > state.rejected),
         end.surfaces,
         state.first,
         np.vstack([state.table, row]),

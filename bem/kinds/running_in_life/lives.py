@@ -5,9 +5,8 @@ Verified in tests/scenes/test_running_in_life_kind.py.
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from bem.errors import ConvergenceError, Status
 from bem.grid import FloatArray
@@ -44,6 +43,11 @@ def on_grid(scene: Any) -> float:
     return scene.contact.on_patch(scene.load, grid.lengths)
 
 
+def longest_jump(scene: Any) -> float:
+    """Return the longest jump allowed [cycles]."""
+    return math.inf if scene.fatigue is None else float(scene.life.count / _JUMPS_OF_FATIGUE)
+
+
 def case_of(scene: Any, setup: MixedSetup) -> LifeCase:
     """Return the parts of the life that stay the same."""
     from bem.kinds.running_in_life.tables import INDICES
@@ -66,7 +70,7 @@ def case_of(scene: Any, setup: MixedSetup) -> LifeCase:
         life.tolerance,
         film,
         life.first_step,
-        longest=np.inf if scene.fatigue is None else life.count / _JUMPS_OF_FATIGUE,
+        longest=longest_jump(scene),
         defect=film_defect(scene),
     )
 

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
-import numpy as np
-
+from bem.grid import Grid
 from bem.kinds.running_in_life import lives
 from bem.kinds.running_in_life.scene import RunningInLifeScene
-from bem.scenes import film_plans, plans
+from bem.scenes import build, film_plans, plans
+from bem.scenes.checks.surfaces_of import rough_surface
 from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.tables.film_defect import film_defect
 
 _CONVOLUTIONS = 7  # of the contacts of a pass, each from the last: 2 to 7 were counted
 _SECONDS = 0.008  # of a pass besides: films from the table, friction, what wears
-_JUMPS = 25  # steps of a life of a million cycles, each of three rounds
 
 
 def plan(scene: RunningInLifeScene) -> Plan:
@@ -31,8 +31,8 @@ def plan(scene: RunningInLifeScene) -> Plan:
         scene.fatigue.build(scene.bodies)
     if scene.particles is not None:
         scene.particles.build(grid, scene.bodies, scene.contact.hardness, lives.on_grid(scene))
-    decades = max(np.log2(max(life.count / life.first_step, 2.0)) / 20, 0.1)
-    passes = 3 * scene.wear.positions * _JUMPS * decades * max(0.05 / life.tolerance, 0.5)
+    jumps = foreseen_jumps(scene, grid)
+    passes = 3.0 * scene.wear.positions * jumps  # a jump is three rounds
     # stresses and damage of both bodies at each depth, by cells
     fatigue = 0.0 if scene.fatigue is None else 1.2e-6 * grid.cells * scene.fatigue.depths.count * passes
     film_cells = None if scene.contact.point_radii is None else scene.sharing.film_cells
@@ -43,8 +43,7 @@ def plan(scene: RunningInLifeScene) -> Plan:
             plans.contacts(
                 grid,
                 _CONVOLUTIONS * passes,
-                f"about {passes / scene.wear.positions / 3:.0f} jumps, each once whole and in two halves, of "
-                f"{scene.wear.positions} positions",
+                f"about {jumps} jumps, each once whole and in two halves, of {scene.wear.positions} positions",
             ),
             seconds=_SECONDS * passes,
         ),
@@ -73,6 +72,24 @@ def plan(scene: RunningInLifeScene) -> Plan:
         ),
         plans.figures(grid.cells),
     )
+
+
+def foreseen_jumps(scene: RunningInLifeScene, grid: Grid) -> int:
+    """Return the number of jumps by the rule of the life, for the error that the roughness and the wear rate lead to.
+
+    A tribofilm and a boundary film with defects change it by a fraction and are left out.
+    """
+    from bem.life.steps import error_per_cycle, foreseen_steps
+
+    life, wear = scene.life, scene.wear
+    found = [rough_surface(body, getattr(scene, body).surface, grid, scene.seed) for body in ("lower", "upper")]
+    rough = [one for one in found if one is not None]
+    height = math.hypot(*(one.rms_height for one in rough))
+    # smooth surfaces wear over the length of the grid
+    wavenumber = math.hypot(*(one.rms_slope for one in rough)) / height if height > 0 else 2 * math.pi / grid.lengths[0]
+    compliance = wear.distance * sum(wear.rates(scene.bodies, scene.friction))
+    error = error_per_cycle(compliance, build.modulus_of(scene), wavenumber, wear.positions)
+    return foreseen_steps(life.count, life.first_step, lives.longest_jump(scene), life.tolerance, error)
 
 
 JUMPS_ALONE = "what the cycle jumps leave open alone, since life.coarser_lives is false"
