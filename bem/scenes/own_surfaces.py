@@ -219,8 +219,7 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, 
         data["domain"] = {"cells": cells, "lengths": _length(cells * cell)}
     elif kind == "running-in-life":
         data["grid"] = {"shape": [cells, min(cells, _MOST_CELLS_ACROSS)], "spacing": _length(cell)}
-        slid = data["speeds"]["slide_roll_ratio"] * cells * cell  # of a place while the patch passes
-        data["wear"] = {"law": data["wear"]["law"] | {"distance": f"{1e6 * slid:.3g} um"}}
+        data["wear"] = {"law": data["wear"]["law"] | _slid_in_a_pass(data["speeds"]["slide_roll_ratio"], cells * cell)}
         return _mirrored_where_bent(kind, data, found, reasons)
     else:
         data["grid"] = {"shape": cells, "spacing": _length(cell)}
@@ -233,6 +232,19 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, 
         data["cycles"] = {"count": _CYCLES, "averaged": turn, "settled": turn, "coarser_grid": True}
     data["depths"] = {"count": 64, "spacing": _length(cell / 2)}
     return _mirrored_where_bent(kind, data | {"wear": _wear(kind, data, cell)}, found, reasons)
+
+
+def _slid_in_a_pass(ratio: float, length: float) -> dict[str, Any]:
+    """Return the keys of a wear law on the sliding of a place of either body, which crosses the patch at its own speed.
+
+    Parameters
+    ----------
+    ratio : slide-to-roll ratio, below 2.
+    length : of the patch along the motion [m].
+    """
+    lower, upper = 1 + 0.5 * ratio, 1 - 0.5 * ratio  # over the entrainment speed
+    distance = f"{1e6 * length * ratio / lower:.4g} um"
+    return {"distance": distance, "upper_over_lower": float(f"{lower / upper:.6g}")}
 
 
 def _scale_of(body: str, path: str, scale: MapScale) -> MapScale | None:
