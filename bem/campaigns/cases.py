@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
@@ -16,6 +16,7 @@ from bem.scenes.kind import Kind, get_kind
 from bem.scenes.load import scene_table, scenes_over, unit_at
 from bem.scenes.paths import parse_key, value_at
 from bem.scenes.records import Figure
+from bem.scenes.uncertain import deviations, has_number
 
 REPETITION = "repetition"
 _MOST_CASES = 100_000
@@ -65,7 +66,8 @@ def campaign_of(scene: SceneModel) -> Campaign:
 
     Raises
     ------
-    InputError : too many of them; values of `over` that make a bad scene, or lists of another length.
+    InputError : too many of them; values of `over` that make a bad scene, or lists of another length; an uncertain key
+        that no case has, or whose deviation is none of a case.
     """
     kind = get_kind(scene.kind)
     bases = [kind.resolved(one) for one in scenes_over(scene)]
@@ -84,7 +86,37 @@ def campaign_of(scene: SceneModel) -> Campaign:
             own = axis.pick(own, i)
             repetition = i if axis.name == REPETITION else repetition
         cases.append(Case(index, own, repetition, _seeds_are_numbered(scene, repetition), label_of(axes, place)))
-    return Campaign(kind, scene, bases[0], axes, tuple(cases))
+    return Campaign(kind, scene, bases[0], axes, _with_uncertain_keys(scene, cases))
+
+
+def _with_uncertain_keys(scene: SceneModel, cases: Sequence[Case]) -> tuple[Case, ...]:
+    """Return the cases, each with the uncertain keys that it has: a case with another law has not all of its keys.
+
+    Raises
+    ------
+    InputError : a key that no case has, such as one in a list that the cases replace; a deviation that is none.
+    """
+    keys = list(scene.uncertain or ())
+    if not keys:
+        return tuple(cases)
+    found: list[Case] = []
+    there: set[str] = set()
+    for case in cases:
+        own = {key: given for key, given in (case.scene.uncertain or {}).items() if has_number(case.scene, key)}
+        there.update(own)
+        changed = case.scene.model_copy(update={"uncertain": own or None})
+        deviations(changed)  # refuses deviations that are none of this case
+        found.append(replace(case, scene=changed))
+    missing = [key for key in keys if key not in there]
+    if missing:
+        raise InputError(
+            [
+                f'uncertain."{key}": the cases take their own values from this list; allowed: the key of the scene '
+                "that they set, such as lower.surface.rms_height for variants[0].lower_rms_height"
+                for key in missing
+            ]
+        )
+    return tuple(found)
 
 
 def _own_axes(kind: Kind, scene: SceneModel) -> tuple[Axis, ...]:

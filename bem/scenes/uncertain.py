@@ -2,12 +2,14 @@
 
     uncertain = { "oil.viscosity" = "5 %", "contact.load" = "0.2 N" }
 
-A relative deviation is of the value at the key; of a list all entries change alike. Knows keys, numbers and units;
+A relative deviation is of the value at the key; of a list all entries change alike. Parameters of laws are keys as in
+the file: in the law's table, or beside it where the scene takes them there. Knows keys, numbers and units;
 verified in tests/scenes/test_uncertain.py.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import re
 from collections.abc import Iterator, Sequence
@@ -18,9 +20,11 @@ from pydantic_core import PydanticCustomError
 
 from bem.arguments import did_you_mean
 from bem.errors import InputError
+from bem.laws import Law
+from bem.scenes.laws import LawTable
 from bem.scenes.paths import parse_key
 from bem.scenes.units import Dimension
-from bem.scenes.walk import Key, own_keys
+from bem.scenes.walk import Key, keys_of, own_keys
 
 _NUMBER = Dimension("", "a number", "0.01")
 _HARDNESSES = ("lower.material.hardness", "upper.material.hardness")
@@ -31,11 +35,32 @@ def value_of(scene: BaseModel, key: str) -> Any:
     """Return the value at a dotted key of a scene; None if there is none."""
     place: Any = scene
     for part in parse_key(key) or ("",):
-        if isinstance(part, int):
-            place = place[part] if isinstance(place, list | tuple) and part < len(place) else None
-        else:
-            place = getattr(place, part, None) if isinstance(place, BaseModel) else None
+        place = _value_in(place, part)
     return place
+
+
+def has_number(scene: BaseModel, key: str) -> bool:
+    """Return True if there is a quantity at a dotted key of a scene."""
+    return bool(_numbers(value_of(scene, key)))
+
+
+def _value_in(place: Any, part: str | int) -> Any:
+    """Return the value at one part of a key in a table, law or list; None if there is none."""
+    if isinstance(part, int):
+        return place[part] if isinstance(place, list | tuple) and part < len(place) else None
+    if isinstance(place, Law):
+        return place.values().get(part)
+    if not isinstance(place, BaseModel):
+        return None
+    law = _law_beside(place, part)
+    return getattr(place, part, None) if law is None else getattr(getattr(place, law), part)
+
+
+def _law_beside(table: BaseModel, name: str) -> str | None:
+    """Return the key of the law of a table whose parameter may stand beside it under a name; None if there is none."""
+    if not isinstance(table, LawTable) or name in type(table).model_fields:
+        return None
+    return next((key for key in type(table).law_keys() if name in getattr(table, key).parameters()), None)
 
 
 def _keys_of_numbers(model: BaseModel, before: str = "") -> Iterator[str]:
@@ -44,6 +69,13 @@ def _keys_of_numbers(model: BaseModel, before: str = "") -> Iterator[str]:
         value = getattr(model, name)
         if isinstance(value, BaseModel):
             yield from _keys_of_numbers(value, f"{before}{name}.")
+        elif isinstance(value, Law):
+            beside = {one: _law_beside(model, one) == name for one in value.parameters()}
+            yield from (
+                f"{before}{one}" if beside[one] else f"{before}{name}.{one}"
+                for one, item in value.values().items()
+                if _numbers(item)
+            )
         elif isinstance(value, list | tuple) and value and all(isinstance(one, BaseModel) for one in value):
             for number, one in enumerate(value):
                 yield from _keys_of_numbers(one, f"{before}{name}[{number}].")
@@ -132,11 +164,12 @@ def _key_at(scene: BaseModel, key: str) -> Key | None:
     place: Any = scene
     found: Key | None = None
     for part in parse_key(key) or ():
-        if isinstance(part, int):
-            place = place[part] if isinstance(place, list | tuple) and part < len(place) else None
-        elif isinstance(place, BaseModel):
-            found = next((one for one in own_keys(type(place)) if one.name == part), None)
-            place = getattr(place, part, None)
+        if isinstance(part, str) and isinstance(place, BaseModel | Law):
+            law = None if isinstance(place, Law) else _law_beside(place, part)
+            owner = place if law is None else getattr(place, law)
+            known = keys_of(type(owner)) if isinstance(owner, Law) else own_keys(type(owner))
+            found = next((one for one in known if one.name == part), None)
+        place = _value_in(place, part)
     return found
 
 
@@ -176,6 +209,11 @@ def _put(place: Any, parts: Sequence[str | int], value: Any) -> Any:
         items = list(place)
         items[first] = _put(items[first], rest, value)
         return type(place)(items)
+    if isinstance(place, Law):
+        return dataclasses.replace(place, **{first: _put(getattr(place, first), rest, value)})
+    law = _law_beside(place, first)
+    if law is not None:
+        return _put(place, (law, *parts), value)
     return place.model_copy(update={first: _put(getattr(place, first), rest, value)})
 
 

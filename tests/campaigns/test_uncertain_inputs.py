@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from bem import load_scene
+from bem import InputError, load_scene, plan_scene
 from bem.campaigns import campaign_of, compute
 from bem.campaigns.uncertain import with_inputs
 from bem.errors import Status
@@ -14,7 +14,7 @@ from bem.plots.report import with_error
 from bem.plots.tables import figure_tables, input_share_tables
 from bem.scenes import get_kind
 from bem.scenes.context import PlainContext
-from bem.scenes.uncertain import moved
+from bem.scenes.uncertain import moved, value_of
 
 CONTACT = {
     "kind": "contact",
@@ -127,3 +127,62 @@ def test_curves_have_a_scatter_at_every_speed():
     assert np.all(found.variables["friction_change_contact_boundary_friction"].values >= 0)
     (table, *_) = figure_tables(dict(found.summary), ["speed_m_s", "friction"])
     assert all("(inputs)" in row[1] for row in table.rows)
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "key", "value", "figure", "rel"),
+    [
+        ("adhesive-sphere", ["grid.shape=48", "contact.approach=0.0", "contact.approach_path=[]"],
+         "contact.adhesion.work", 0.05, "load", 1e-3),
+        ("coated-sphere", ["grid.shape=24", 'outputs={"von_mises"=false}'],
+         "lower.layer.material.youngs_modulus", None, "max_pressure", 1e-3),
+        ("wear-cylinder-scar", ["cycles.count=4", "cycles.settled=2"],
+         "wear.criterion.specific_wear_rate", 1e-15, "worn_volume_per_cycle", 1e-3),
+        ("stribeck-mineral-oil",
+         ["repetitions=1", 'speeds={values=["0.1 m/s"]}', "grid.shape=48", "film.points=200",
+          'sharing.models=["elastic"]', 'contact.boundary_friction={kind="speed_dependent",static_friction=0.2,'
+          'kinetic_friction=0.1,speed_scale="0.1 m/s"}'],
+         "contact.boundary_friction.static_friction", 0.2, "friction", 1e-3),
+        ("stribeck-mineral-oil",
+         ["repetitions=1", 'speeds={values=["3 m/s"]}', "grid.shape=48", "film.points=200",
+          'sharing.models=["elastic"]', 'oil.shear_law="eyring"', 'oil.shear_stress_limit="5 MPa"', 'thermal="off"'],
+         "oil.shear_stress_limit", 5e6, "friction", 0.02),
+    ],
+)  # fmt: skip
+def test_parameters_of_laws_and_layers_are_uncertain_inputs(name, settings, key, value, figure, rel):
+    """They were refused as no quantity. The change is that of scenes whose files have the parameter changed."""
+    quiet = [*settings] if name.startswith("wear") else [*settings, "outputs.errors=false"]
+    if value is None:
+        value = value_of(get_kind("contact").resolved(load_scene(name, quiet)), key)
+    deviation, step = 0.02 * value, 0.25
+    found = compute(campaign_of(load_scene(name, [*quiet, f'uncertain={{"{key}"="2 %"}}']))).outcome
+    ends = [
+        compute(campaign_of(load_scene(name, [*quiet, f"{key}={value + side * step * deviation!r}"]))).outcome
+        for side in (-1, 1)
+    ]
+    before, after = (float(np.ravel(end.variables[figure].values)[0]) for end in ends)
+    change = float(np.ravel(found.variables[f"{figure}_change_{key.replace('.', '_')}"].values)[0])
+    assert before != after
+    assert change == pytest.approx((after - before) / (2 * step), rel=rel, abs=0)
+
+
+SCAR = ["cycles.count=4", "cycles.settled=2", 'uncertain={"wear.criterion.specific_wear_rate"="2 %"}']
+
+
+def test_a_case_with_another_law_has_no_error_by_a_parameter_of_the_first():
+    """It stopped the case: the parameter is none of its keys."""
+    energy = '{name="energy",criterion={kind="energy",energy_wear_rate=1e-14,distance="107 mm"}}'
+    laws = [f'variants=[{{name="archard"}},{energy}]', "cylinder.friction=0.1"]
+    found = compute(campaign_of(load_scene("wear-cylinder-scar", [*SCAR, *laws]))).outcome
+    volume = found.variables["worn_volume_per_cycle"].values.ravel()
+    change = found.variables["worn_volume_per_cycle_change_wear_criterion_specific_wear_rate"].values.ravel()
+    assert change[0] == pytest.approx(0.02 * volume[0], rel=1e-6, abs=0)
+    assert volume[1] > 0
+    assert np.isnan(change[1])
+
+
+def test_a_key_in_a_list_that_cases_replace_is_refused_before_the_run():
+    laws = 'variants=[{name="archard",criterion={kind="archard",specific_wear_rate=1e-15,distance="107 mm"}}]'
+    key = 'uncertain={"variants[0].criterion.specific_wear_rate"="2 %"}'
+    with pytest.raises(InputError, match="take their own values from this list"):
+        plan_scene("wear-cylinder-scar", ["cycles.count=4", "cycles.settled=2", laws, key])

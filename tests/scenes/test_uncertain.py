@@ -105,3 +105,38 @@ def test_adhesion_and_stresses_have_no_derivative():
     stressed = load_scene("hertz-sphere", ["outputs.von_mises=true"])
     assert stressed.wanted_depths()
     assert not by_tangent(stressed, "contact.load")
+
+
+EYRING = ['oil.shear_law="eyring"', 'oil.shear_stress_limit="5 MPa"']
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "key", "unit", "value"),
+    [
+        ("adhesive-sphere", [], "contact.adhesion.work", "1 mJ/m^2", 1e-3),
+        ("running-in-life", [], "wear.law.distance", "0.5 um", 0.5e-6),
+        ("stribeck-mineral-oil", EYRING, "oil.shear_stress_limit", "0.2 MPa", 2e5),
+        ("stribeck-mineral-oil", EYRING, "oil.shear_law.shear_stress_limit", "0.2 MPa", 2e5),
+    ],
+)
+def test_parameters_of_laws_have_deviations_in_their_unit(name, settings, key, unit, value):
+    before = load_scene(name, [*settings, f'uncertain={{"{key}"="{unit}"}}'])
+    assert deviations(before) == {key: pytest.approx(value, rel=1e-12, abs=0)}
+    after = moved(before, key, value, 2.0)
+    assert value_of(after, key) == pytest.approx(value_of(before, key) + 2 * value, rel=1e-12, abs=0)
+    assert type(after) is type(before)
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "key", "words"),
+    [
+        ("adhesive-sphere", [], "contact.adhesion", 'did you mean "contact.adhesion.work"'),
+        ("adhesive-sphere", [], "contact.adhesion.wrk", 'did you mean "contact.adhesion.work"'),
+        ("stribeck-mineral-oil", EYRING, "oil.shear_stress_limt", 'did you mean "oil.shear_stress_limit"'),
+        ("stribeck-mineral-oil", [], "oil.shear_stress_limit", "no quantity is set there"),
+        ("adhesive-sphere", [], "contact.adhesion.kind", "not a whole number or a name"),
+    ],
+)
+def test_keys_of_laws_that_are_refused(name, settings, key, words):
+    with pytest.raises(InputError, match=words):
+        plan_scene(name, [*settings, f'uncertain={{"{key}"="5 %"}}'])
