@@ -44,6 +44,8 @@ HertzPressures = Annotated[list[PositivePressure], Field(min_length=1, max_lengt
 Repetitions = Annotated[int, Field(strict=True, ge=1, le=1000)]
 Axis = Literal["none", "x", "y", "both"]
 BODIES = ("lower", "upper")
+DEEP_RADII = 1.5
+"""Deepest depth of stresses over the radius of the smooth contact, at least, where an accuracy is asked for."""
 
 
 class Variant(Table):

@@ -18,7 +18,7 @@ from bem.accuracy.bars import GRID
 from bem.errors import InputError
 from bem.scenes import build
 from bem.scenes.axes import changed
-from bem.scenes.common import GeneratedSurface, MeasuredSurface
+from bem.scenes.common import DEEP_RADII, GeneratedSurface, MeasuredSurface
 
 _PER_WAVE, _PER_RADIUS, _PER_LAYER, _FEWEST = 4, 6, 1, 32
 """Cells of the first level to the shortest wave or correlation length, to the radius of the smooth contact, to the
@@ -31,8 +31,8 @@ _MARGIN, _HIGH = 1.25, 3.0
 rms height, is closed."""
 _PER_LENGTH, _WAVES = 8, 4
 """Correlation lengths that make a longest wave, and how many of these a slice of a line contact holds along it."""
-_DEEP, _MOST_DEPTHS, _MOST_PER_LAYER = 1.5, 1024, 257
-"""Deepest depth over the radius of the smooth contact, and how many depths there can be, in all and in each layer."""
+_MOST_DEPTHS, _MOST_PER_LAYER = 1024, 257
+"""Most depths, in all and in each layer."""
 
 
 @dataclass(frozen=True)
@@ -287,7 +287,7 @@ def _first_depths(scene: Any) -> Any:
     if not outputs.below or outputs.depths is not None or scene.grid.lengths is None:
         return scene
     smooth = scene.smooth_contact(scene.grid.lengths)
-    size = _DEEP * min(smooth.semi_axes) if smooth is not None else 0.0
+    size = DEEP_RADII * min(smooth.semi_axes) if smooth is not None else 0.0
     deepest = max(size, min(scene.grid.lengths) / 4)
     return changed(scene, "outputs.depths", scene.usual_depths(deepest))
 

@@ -13,6 +13,7 @@ from bem.quantities import si
 from bem.scenes import build
 from bem.scenes.axes import changed
 from bem.scenes.common import (
+    DEEP_RADII,
     BodyScene,
     Force,
     GridScene,
@@ -24,7 +25,7 @@ from bem.scenes.common import (
     problem,
 )
 from bem.scenes.keys import key
-from bem.scenes.tables.depths import DepthsScene
+from bem.scenes.tables.depths import DEPTHS_PER_LAYER, DepthsScene
 from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.units import Length, Ratio
 
@@ -235,7 +236,10 @@ class StressOutputs(Table):
         "Depths at which stresses are computed.",
         "basic",
         default=None,
-        reason="24 depths down to a quarter of the grid, and 5 or more in each layer of a coating",
+        reason=f"{_DEPTHS} depths, graded down to the deepest of a quarter of the grid's shorter side, "
+        f"{_BELOW_COATING:g} times the thickness of the coating and, with an accuracy asked for, {DEEP_RADII:g} times "
+        f"the radius of the smooth contact; in each layer of a coating at least {DEPTHS_PER_LAYER}, which replace "
+        "graded depths close to them",
     )
     body: Literal["lower", "upper"] = key("Body in which stresses are computed.", "advanced", default="lower")
 
