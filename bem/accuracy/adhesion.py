@@ -1,4 +1,4 @@
-"""Error bars of an adhesive contact: the same path on the grid of twice the cell.
+"""Error bars of an adhesive contact: the same path on the grid of twice the cell, and the steps about its lowest load.
 
 Verified in tests/adhesion/test_adhesive_bars.py against Maugis' spheres and finer grids of rough surfaces.
 """
@@ -65,6 +65,7 @@ def adhesive_bars(
             approaches=asked.get("approaches"),
             hardness=case.hardness,
             tolerance=tolerance,
+            refined=True,
             callback=None if after is None else lambda number, _: after(number + 1),
         )
     except InfeasibleError:
@@ -83,7 +84,10 @@ def adhesive_bars(
         del grid["lowest_load"]
     given = "load" if "loads" in asked else "approach"
     grid[given] = 0.0
-    parts = {GRID: grid, RESIDUAL: residual_errors(path.last.residual, fine)}
+    left = residual_errors(path.last.residual, fine)
+    if given == "approach" and "lowest_load" in grid:
+        left["lowest_load"] = left.get("lowest_load", 0.0) + path.lowest_load_error
+    parts = {GRID: grid, RESIDUAL: left}
     for errors in parts.values():  # pressure less a constant, the strength of the law
         errors["mean_contact_traction"] = errors["mean_contact_pressure"]
     return ErrorBars.together(parts)

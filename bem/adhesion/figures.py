@@ -1,4 +1,4 @@
-"""Figures of an adhesive contact that its pressure alone does not give, and whether its path passes the pull-off.
+"""Figures of an adhesive contact that its pressure alone does not give, and of the lowest load of its path.
 
 Verified in tests/adhesion/test_adhesive_bars.py.
 """
@@ -42,3 +42,36 @@ def passes_pull_off(load: FloatArray, approach: FloatArray, contact_area: FloatA
         return False
     lowest = np.flatnonzero(load[:-1] <= (1 - _ALIKE) * least)  # a way in and out may have one load but for rounding
     return any(np.any(contact_area[: one + 1] > 0) and approach[one + 1] < approach[one] for one in lowest)
+
+
+LOWEST_LOAD_TOLERANCE = 5e-3
+"""Part of the lowest load of a refined path by which the load may be lower between two of its steps; the error bar
+includes it."""
+
+
+def load_between_steps(load: FloatArray, approach: FloatArray) -> FloatArray:
+    """Return a lower bound of the load [N] within each of the n - 1 steps of a path of approaches.
+
+    Load over approach is taken as convex where the contact does not jump: the load of a step then lies above the chords
+    of the steps beside it, prolonged. A chord that the load at the far end of the step lies below is not used: there
+    is a jump. A way in that the path later goes back is left at its own loads, as the bodies that part hold together
+    more. Infinitely low for a step beside the lowest load whose neighbours go the other way.
+    load : [N]; approach : [m]; (n,) over the steps of the path.
+    """
+    step = np.diff(approach)
+    bound = np.minimum(load[:-1], load[1:])
+    lowest = int(load.argmin())
+    for k in range(len(step)):
+        if step[k] == 0 or (step[k] > 0 and approach[k + 1 :].min() <= approach[k]):
+            continue
+        chords = []
+        if k > 0 and step[k - 1] * step[k] > 0:
+            chords.append((load[k], load[k] + (load[k] - load[k - 1]) * step[k] / step[k - 1], load[k + 1]))
+        if k + 1 < len(step) and step[k + 1] * step[k] > 0:
+            chords.append((load[k + 1], load[k + 1] - (load[k + 2] - load[k + 1]) * step[k] / step[k + 1], load[k]))
+        if not chords:
+            bound[k] = -np.inf if lowest in (k, k + 1) and load[lowest] < 0 else bound[k]
+            continue
+        lower = [min(near, far) for near, far, there in chords if far <= there]
+        bound[k] = min(bound[k], max(lower, default=bound[k]))
+    return bound

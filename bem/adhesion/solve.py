@@ -7,7 +7,9 @@ being the displacement operator. The state with a = s(g) is a fixed point:
 1. Begin with the attraction of the state before, in a history, or without any.
 2. Subtract K a from the undeformed gap and solve the contact (`solve_contact`) at the prescribed approach, or under the
    prescribed load plus the force of a.
-3. Compare a with s(g); the residual is the largest difference over the strength of the law. End if it is small enough.
+3. Compare a with s(g); the residual is the largest difference over the strength of the law, and over the highest
+   attraction where the bodies do not touch. End if it is small enough. The attraction of bodies apart is zero where
+   s(g) is below the tolerance times the strength.
 4. Replace a by s(g), or by its extrapolation from the last states (`_Extrapolation`); go on with 2.
 
 Bodies come closer where they attract each other more, and attract each other more where they are closer. The plain
@@ -60,7 +62,8 @@ class AdhesiveSolution:
     load : [N], of the pressure less the attraction; negative in tension.
     energy : [J], elastic and adhesive; zero for bodies far apart.
     steps : contacts that were solved. convolutions : applications of the operator in all of them.
-    residual : largest difference of the attraction and the law at the gap, over the strength of the law.
+    residual : largest difference of the attraction and the law at the gap, over the strength of the law; of bodies
+        apart, over the highest attraction. Attraction below the tolerance times the strength is zero there.
     status : converged if the residual is at most the tolerance and the contact converged; infeasible where the bodies
         cannot bear the load that pulls them.
     """
@@ -139,12 +142,19 @@ def solve_adhesive_contact(
         )
         pressure, steps = contact.pressure, steps + 1
         wanted = law.traction(contact.gap, operator.grid)
-        residual = float(np.max(np.abs(wanted - attraction))) / law.strength
+        apart = not contact.pressure.any()
+        highest = float(wanted.max())
+        none = apart and highest <= tolerance * law.strength
+        scale = highest if apart and not none else law.strength
+        residual = float(np.max(np.abs(wanted - attraction))) / scale
         if callback is not None:
             callback(steps, residual)
         if not holds and not extrapolation.suspend():
             status = Status.INFEASIBLE
             break
+        if none and attraction.any() and steps < max_steps:
+            attraction = np.zeros_like(attraction)
+            continue
         if holds and (residual <= tolerance or steps == max_steps):
             status = Status.CONVERGED if residual <= tolerance else Status.MAX_ITERATIONS
             status = status if contact.status is Status.CONVERGED else contact.status

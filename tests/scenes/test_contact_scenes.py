@@ -533,8 +533,12 @@ ADHESIVE = {
 def test_adhesion_follows_the_path_and_tells_the_lowest_load():
     _, outcome, _ = run(ADHESIVE)
     assert outcome.status == Status.CONVERGED
-    load = outcome.variables["path_load"].values
-    assert load.shape == (5,)
+    load, approach = (outcome.variables[name].values for name in ("path_load", "path_approach"))
+    assert [one for one in approach * 1e6 if np.isclose(one, [-1, 0.4, 0, -0.2, -0.4]).any()] == pytest.approx(
+        [-1, 0.4, 0, -0.2, -0.4]
+    )
+    assert 5 < load.size <= 17  # with points about the lowest load
+    assert 0 < load.argmin() < load.size - 2
     assert outcome.summary["load_N"] == load[-1]
     assert outcome.summary["lowest_load_N"] == load.min()
     # between Johnson, Kendall and Roberts' 1.5 and Bradley's 2 pi w R

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from bem.adhesion.figures import mean_contact_traction
-from bem.adhesion.zone import FEWEST_CELLS, cells_in_zone, zone_notes
+from bem.adhesion.zone import is_resolved, zone_notes
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.kinds.contact.response import Response
@@ -136,7 +136,7 @@ def pull_off_forces(scene: ContactScene) -> tuple[float, float] | None:
 def zone_is_resolved(scene: ContactScene, grid: Grid) -> bool:
     """Return True if the cells resolve the adhesive zone, and without adhesion."""
     law = scene.contact.adhesion
-    return law is None or cells_in_zone(law, build.modulus_of(scene), grid) >= FEWEST_CELLS
+    return law is None or is_resolved(law, build.modulus_of(scene), grid)
 
 
 def adhesion_notes(scene: ContactScene, grid: Grid, path: AdhesiveHistory) -> tuple[Note, ...]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from bem.adhesion.zone import resolved_range, resolving_shape
 from bem.grid import Grid
 from bem.kinds.contact.adhesive import zone_is_resolved
 from bem.kinds.contact.scene import ContactScene
+from bem.quantities import si
 from bem.reference_solutions.adhesive_sphere import tabor_parameter
 from bem.scenes import build, plans
-from bem.scenes.planner import Plan, Step
+from bem.scenes.planner import Plan, Step, machine_rate, show_seconds, step_seconds
 
 ADHESIVE_CONVOLUTIONS, PER_SOLVE = 250.0, 8.0
 """Convolutions of a state with adhesion between rough surfaces, and convolutions of each of its contacts."""
@@ -17,6 +19,8 @@ SPHERE_CONVOLUTIONS = (60.0, 130.0)
 Counted on paths of ten states that press and pull off: 65 at 0.3, 146 to 152 at 1, 417 to 1277 at 2 (64 to 256 cells a
 side, most in the state in which the sphere jumps off), 2060 to 6060 at 4, where cells did not resolve the zone.
 """
+ADDED_STATES = 6
+"""States that are added about the lowest load of a path of approaches: 4 to 12 were counted, and 3 of a fine path."""
 MOST_TABOR = 6.0
 """Tabor's parameter above which no counts are known."""
 UNRESOLVED = 12.0
@@ -95,14 +99,34 @@ def _adhesive(scene: ContactScene, grid: Grid, words: str) -> tuple[Step, dict[s
         (2 * grid.spacing[0], 2 * grid.spacing[1]),
         periodic=grid.periodic,
     )
-    fine, coarse = (steps * _convolutions(scene, one) for one in (grid, twice))
-    known = zone_is_resolved(scene, twice) if scene.outputs.errors else zone_is_resolved(scene, grid)
-    unknown = "the time cannot be told, as cells do not resolve adhesion"
-    how = "time within a factor of about 3, more with jumps" if known else unknown
-    states = f"{steps} {'state' if steps == 1 else 'states'} on the path"
+    if scene.contact.approach is not None and steps > 2:
+        solved, states = (
+            steps + ADDED_STATES,
+            f"{steps} states on the path and about {ADDED_STATES} more at its lowest load",
+        )
+    else:
+        solved, states = steps, f"{steps} {'state' if steps == 1 else 'states'} on the path"
+    fine, coarse = (solved * _convolutions(scene, one) for one in (grid, twice))
+    how = "time within a factor of about 3, more with jumps"
+    if not zone_is_resolved(scene, grid):
+        how = f"time unknown: the cells do not resolve adhesion; {_resolving(scene, grid, solved)}"
     contact = plans.contacts(grid, fine, f"{words}; adhesive, {states}; {how}", solves=fine / PER_SOLVE)
     cost = plans.coarser_contacts(grid, coarse, 2.0) | {"seconds": plans.SOLVE * coarse / PER_SOLVE}
     return contact, cost
+
+
+def _resolving(scene: ContactScene, grid: Grid, states: int) -> str:
+    """Return what resolves the adhesive zone, and the time of the path then."""
+    law, modulus = scene.contact.adhesion, build.modulus_of(scene)
+    assert law is not None
+    shape = resolving_shape(law, modulus, grid)
+    if shape is None:
+        return f"set contact.adhesion.range to {si(resolved_range(law, modulus, grid), 'm')} or more at the same work"
+    nx, ny = shape
+    finer = Grid(shape, (grid.lengths[0] / nx, grid.lengths[1] / ny), periodic=grid.periodic)
+    convolutions = states * _convolutions(scene, finer)
+    seconds = step_seconds(plans.contacts(finer, convolutions, "", solves=convolutions / PER_SOLVE), machine_rate())
+    return f"set grid.shape to {nx} x {ny} or more, for which this step takes about {show_seconds(seconds)}"
 
 
 def _convolutions(scene: ContactScene, grid: Grid) -> float:

@@ -223,7 +223,10 @@ class ContactRecord(GridRecord, WheelRailRecord):
         FloatArray | None, grid_map("Pa", "contact pressure at the lowest load of a path that ends apart")
     ] = None
     path_time: Annotated[FloatArray | None, Series(("step",), "s", "time on the path")] = None
-    path_load: Annotated[FloatArray | None, Series(("step",), "N", "load on the path")] = None
+    path_load: Annotated[
+        FloatArray | None,
+        Series(("step",), "N", "load on the path, with steps added about an adhesive path's lowest load"),
+    ] = None
     path_approach: Annotated[FloatArray | None, Series(("step",), "m", "approach on the path")] = None
     path_contact_area: Annotated[FloatArray | None, Series(("step",), "m^2", "contact area on the path")] = None
     path_jump: Annotated[NDArray[np.int8] | None, Series(("step",), "1", "1 for a step in which the contact jumps")] = (

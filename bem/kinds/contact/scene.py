@@ -45,7 +45,7 @@ class AdhesiveControl(ContactControl):
     )
     approach_path: list[Length] = key(
         "Approaches that an adhesive or viscoelastic contact goes through before its approach, in this order; negative "
-        "ones stand apart.",
+        "ones stand apart. With adhesion steps are added where the lowest load lies between two of them.",
         "advanced",
         default=[],
     )

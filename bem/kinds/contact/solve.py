@@ -88,6 +88,7 @@ def solve_adhesive(scene: ContactScene, grid: Grid, undeformed: FloatArray, cont
         tolerance=adhesion_tolerance(scene),
         loads=path.get("loads"),
         approaches=path.get("approaches"),
+        refined=True,
         callback=watch,
     )
     keep(context, history)

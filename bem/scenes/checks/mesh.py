@@ -72,10 +72,10 @@ def _semi_axes(facts: Facts, case: Case) -> tuple[float, ...]:
     law, smooth = _adhesion(facts), case.smooth
     if smooth is None or law is None or case.grid is None:
         return () if smooth is None else smooth.semi_axes
-    from bem.adhesion.zone import FEWEST_CELLS, cells_in_zone
+    from bem.adhesion.zone import is_resolved
     from bem.reference_solutions.adhesive_sphere import dmt_pull_off_force
 
-    resolved = cells_in_zone(law, build.modulus_of(facts.scene), case.grid) >= FEWEST_CELLS
+    resolved = is_resolved(law, build.modulus_of(facts.scene), case.grid)
     if not resolved or case.shape != "sphere":
         return ()
     if case.load is None:
