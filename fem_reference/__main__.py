@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import inspect
 import logging
 import os
 import random
@@ -150,18 +151,26 @@ def _one(case: str, problem: Problem, parameters: dict, rest: list[str]) -> int:
     options = argparse.ArgumentParser(prog=f"python -m fem_reference {case}", description=problem.sentence)
     _add_options(options, problem.parameters)
     options.add_argument("--out", type=Path, help="write the result to this file")
+    options.add_argument("--finer", type=int, default=0, help="refine all meshes by so many levels (default 0)")
     options.add_argument("--check", type=Path, help="compare to this stored result; exit 1 if it does not reproduce")
     chosen = vars(options.parse_args(rest))
-    out, check = chosen.pop("out"), chosen.pop("check")
+    out, check, finer = chosen.pop("out"), chosen.pop("check"), chosen.pop("finer")
+    if finer < 0:
+        print(f"--finer {finer}: allowed are whole numbers from 0", file=sys.stderr)
+        return 2
+    if finer and "finer" not in inspect.signature(problem.solve).parameters:
+        print(f"--finer: the meshes of {problem.name} are fixed", file=sys.stderr)
+        return 2
+    refined = {"finer": finer} if finer else {}
     if check is not None and not check.is_file():
         print(f"there is no stored result {check}", file=sys.stderr)
         return 1
     try:
-        result = problem.solve(**{**parameters, **chosen})
+        result = problem.solve(**{**parameters, **chosen, **refined})
     except ValueError as error:
         print(f"{case}: {error}", file=sys.stderr)
         return 2
-    digest = provenance.inputs_digest(module_of(problem), {**parameters, **chosen})
+    digest = provenance.inputs_digest(module_of(problem), {**parameters, **chosen, **refined})
     result = replace(result, case=out.stem if out is not None else case, inputs=digest)
     print(_table(result))
     if out is not None:

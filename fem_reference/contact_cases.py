@@ -353,8 +353,10 @@ def _loads(default: tuple[float, ...], text: str) -> Parameter:
 
 
 def _solver(shape: str) -> Any:
-    def solve(*, nu: float, layer: Triple, indenter: Triple, loads: Sequence[float], cells: int) -> Result:
-        return solve_contact(Pair(shape, nu, layer, indenter), loads=loads, cells=cells)
+    def solve(
+        *, nu: float, layer: Triple, indenter: Triple, loads: Sequence[float], cells: int, finer: int = 0
+    ) -> Result:
+        return solve_contact(Pair(shape, nu, layer, indenter), loads=loads, cells=cells << finer)
 
     return solve
 

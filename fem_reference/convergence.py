@@ -98,6 +98,7 @@ class Method:
     grid : called with level= and, for the wider boxes, boxes=.
     solve : the solution on a mesh, with `cells` and `dofs`. curves : its figures. degree : of the elements.
     levels : of the meshes, rising.
+    finer : added to the level of every mesh, where the error bars of the usual ones are too wide.
     box_order : by curve, k of the leading error 1/R^k of a box; None where the body is not cut off by one.
     checks : equilibrium of the finest solution.
     """
@@ -109,6 +110,12 @@ class Method:
     levels: Sequence[int] = (1, 2, 3)
     box_order: Callable[[Curve], float] | None = lambda curve: 1.0
     checks: Callable[[Any], dict[str, dict[str, float]]] = lambda solution: {}
+    finer: int = 0
+
+    @property
+    def mesh_levels(self) -> list[int]:
+        """Levels of the meshes that are solved."""
+        return [level + self.finer for level in self.levels]
 
 
 @dataclass(frozen=True)
@@ -122,9 +129,9 @@ class Floors:
 def study(statement: Statement, method: Method, floors: Floors = Floors()) -> Result:
     """Solve on meshes of rising level and in boxes of rising width, and put the result together."""
     began = processor_time()
-    meshes = [method.grid(level=level) for level in method.levels]
+    meshes = [method.grid(level=level) for level in method.mesh_levels]
     rows, found = [], []
-    for level, mesh in zip(method.levels, meshes, strict=True):
+    for level, mesh in zip(method.mesh_levels, meshes, strict=True):
         solution = method.solve(mesh)
         found.append(method.curves(solution))
         rows.append({"parameters": {"level": level}, "cells": solution.cells, "dofs": solution.dofs, "size": 1 / level})
@@ -154,7 +161,7 @@ def _far_field(method: Method, found: list[list[Curve]]) -> FarField:
     """What two wider boxes say on the coarsest mesh."""
     if method.box_order is None:
         return FarField([np.zeros(1)] * len(found[0]), [np.zeros(1)] * len(found[0]))
-    wider = [method.curves(method.solve(method.grid(level=method.levels[0], boxes=n))) for n in (1, 2)]
+    wider = [method.curves(method.solve(method.grid(level=method.mesh_levels[0], boxes=n))) for n in (1, 2)]
     return extrapolate_boxes([found[0], *wider], [method.box_order(curve) for curve in found[-1]])
 
 
@@ -163,7 +170,7 @@ def _quantities(found: list[list[Curve]], far: FarField, method: Method, floors:
     quantities = []
     for index, curve in enumerate(found[-1]):
         bar = estimate(
-            [1 / level for level in method.levels],
+            [1 / level for level in method.mesh_levels],
             np.array([row[index].values for row in found]),
             expected_order=method.degree if curve.derivative else method.degree + 1,
             round_off=floors.round_off,

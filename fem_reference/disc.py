@@ -234,9 +234,7 @@ def _weak_form(harmonic: int, pressure: str) -> WeakForm:
     return form(fields=3, strain=strain_1, held=held, rigid=[(0.0, 2.0, 0.0)])
 
 
-def _solve(
-    harmonic: int, *, nu: float, layer: Sequence[float] | None, pressure: str, levels: Sequence[int] = (1, 2, 3)
-) -> Result:
+def _solve(harmonic: int, *, nu: float, layer: Sequence[float] | None, pressure: str, finer: int) -> Result:
     materials, thicknesses = bodies(nu, layer)
 
     def grid(level: int, boxes: int = 0) -> Any:
@@ -265,22 +263,22 @@ def _solve(
         solve=lambda builder: solve(builder, materials, form),
         curves=lambda solution: _curves(solution, harmonic, thicknesses),
         degree=DEGREE,
-        levels=levels,
         # the walls shift the middle by something like 1/R along the load and strain it by 1/R^2
         box_order=lambda curve: 1.0 if curve.name == along and not curve.derivative else 2.0,
         checks=checks,
+        finer=finer,
     )
     return study(statement, method)
 
 
-def solve_normal(*, nu: float, layer: Sequence[float] | None, pressure: str) -> Result:
+def solve_normal(*, nu: float, layer: Sequence[float] | None, pressure: str, finer: int = 0) -> Result:
     """A disc of pressure: see the module."""
-    return _solve(0, nu=nu, layer=layer, pressure=pressure)
+    return _solve(0, nu=nu, layer=layer, pressure=pressure, finer=finer)
 
 
-def solve_tangential(*, nu: float, layer: Sequence[float] | None, pressure: str) -> Result:
+def solve_tangential(*, nu: float, layer: Sequence[float] | None, pressure: str, finer: int = 0) -> Result:
     """A disc of traction along x: see the module."""
-    return _solve(1, nu=nu, layer=layer, pressure=pressure)
+    return _solve(1, nu=nu, layer=layer, pressure=pressure, finer=finer)
 
 
 PARAMETERS = (

@@ -66,7 +66,7 @@ def _curves(solution: Solution, load: str, thicknesses: Sequence[float], label: 
     return found
 
 
-def _one(nu: float, layer: Sequence[float], load: str, wavenumber_thickness: float) -> Result:
+def _one(nu: float, layer: Sequence[float], load: str, wavenumber_thickness: float, finer: int) -> Result:
     """One wavelength."""
     materials, thicknesses = bodies(nu, layer)
     # q h is the outermost layer's; the others are in proportion
@@ -94,18 +94,21 @@ def _one(nu: float, layer: Sequence[float], load: str, wavenumber_thickness: flo
         curves=lambda solution: _curves(solution, load, thicknesses, f"q h = {wavenumber_thickness:g}"),
         degree=DEGREE,
         box_order=None,
+        finer=finer,
     )
     return study(Statement("harmonic", "", {}, "", FAR_FIELD), method, Floors(round_off=1e-9))
 
 
-def solve_harmonic(*, nu: float, layer: Sequence[float], load: str, wavenumbers: Sequence[float]) -> Result:
+def solve_harmonic(
+    *, nu: float, layer: Sequence[float], load: str, wavenumbers: Sequence[float], finer: int = 0
+) -> Result:
     """Harmonic load: see the module. The layer's thickness enters through q h only."""
     if not layer:
         raise ValueError("layer: the harmonic problem needs one (of modulus ratio 1 for a homogeneous body)")
     bad = [w for w in wavenumbers if not 0 < w <= 50]
     if bad:
         raise ValueError(f"wavenumbers: q h {bad} must lie between 0 and 50")
-    parts = [_one(nu, layer, load, w) for w in wavenumbers]
+    parts = [_one(nu, layer, load, w, finer) for w in wavenumbers]
     surface: dict[str, list[tuple[float, float, float, float | None]]] = {}
     quantities: list[Quantity] = []
     for w, part in zip(wavenumbers, parts, strict=True):

@@ -94,7 +94,7 @@ def _carried_away(solution: HeatSolution, made: float) -> dict[str, dict[str, fl
     return {"heat carried away": {"value": solution.left, "expected": made, "tolerance": 1e-5 * made}}
 
 
-def solve_disc(*, profile: str) -> Result:
+def solve_disc(*, profile: str, finer: int = 0) -> Result:
     """A heated disc on a body at rest."""
     hertz = profile == "hertz"
     heated = _Heated(
@@ -120,11 +120,12 @@ def solve_disc(*, profile: str) -> Result:
         curves=lambda solution: [solution.surface(RADII, "surface")],
         degree=DEGREE,
         checks=lambda solution: _carried_away(solution, 1 / 3 if hertz else 0.5),
+        finer=finer,
     )
     return study(statement, method)
 
 
-def solve_band(*, peclet: float) -> Result:
+def solve_band(*, peclet: float, finer: int = 0) -> Result:
     """A heated band over which the body moves."""
     if not 0.5 <= peclet <= 500:
         raise ValueError(f"peclet {peclet}: allowed are 0.5 to 500, for which the box and the mesh are made")
@@ -150,6 +151,7 @@ def solve_band(*, peclet: float) -> Result:
         levels=(2, 3, 4),
         box_order=None,
         checks=lambda solution: _carried_away(solution, 2.0),
+        finer=finer,
     )
     return study(statement, method)
 

@@ -57,7 +57,8 @@ class Problem:
     name : the CASE of the command line.
     sentence : what is solved, in one sentence.
     parameters : what can be varied.
-    solve : called with the parameters as keywords; returns a Result whose ``case`` the caller sets.
+    solve : called with the parameters as keywords, and where it takes it ``finer``, by how many levels all meshes are
+        refined; returns a Result whose ``case`` the caller sets.
     stored : the cases kept on file: parameters that differ from the defaults, by case name.
     quick : names of stored cases cheap enough (a few seconds) for the default tests.
     """

@@ -83,7 +83,7 @@ def _curves(solution: Solution, load: str, width: float, thickness: float | None
     return found
 
 
-def solve_rectangle(*, nu: float, layer: Sequence[float] | None, load: str, width: float) -> Result:
+def solve_rectangle(*, nu: float, layer: Sequence[float] | None, load: str, width: float, finer: int = 0) -> Result:
     """A loaded rectangle: see the module."""
     materials, _ = bodies(nu, layer)
     thickness = one_layer(layer)
@@ -125,6 +125,7 @@ def solve_rectangle(*, nu: float, layer: Sequence[float] | None, load: str, widt
         box_order=lambda curve: 2.0 if curve.derivative else 1.0,
         # a quarter of the rectangle is meshed
         checks=lambda solution: equilibrium(solution, [width]),
+        finer=finer,
     )
     return study(statement, method, Floors(typical=1.0))
 

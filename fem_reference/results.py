@@ -215,7 +215,9 @@ def reproduces(stored: Result, computed: Result, *, factor: float = 1.0, round_o
         if new is None:
             complaints.append(f"{stored.case}: {old.name} along {old.along} was not computed")
             continue
-        if not np.allclose(old.coordinates, new.coordinates, rtol=1e-8, atol=1e-9):
+        if len(old.coordinates) != len(new.coordinates) or not np.allclose(
+            old.coordinates, new.coordinates, rtol=1e-8, atol=1e-9
+        ):
             complaints.append(f"{stored.case}: {old.name} along {old.along}: other points")
             continue
         values = np.asarray(old.values)

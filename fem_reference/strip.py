@@ -123,7 +123,7 @@ def _box_order(load: str, name: str) -> float:
     return 2.0
 
 
-def solve_strip(*, nu: float, layer: Sequence[float] | None, load: str) -> Result:
+def solve_strip(*, nu: float, layer: Sequence[float] | None, load: str, finer: int = 0) -> Result:
     """A loaded strip: see the module."""
     materials, thicknesses = bodies(nu, layer)
     antiplane = load == "antiplane"
@@ -158,6 +158,7 @@ def solve_strip(*, nu: float, layer: Sequence[float] | None, load: str) -> Resul
         box_order=lambda curve: _box_order(load, curve.name),
         # half of the strip is meshed: the resultant is 1
         checks=lambda solution: equilibrium(solution, [1.0]),
+        finer=finer,
     )
     return study(statement, method)
 

@@ -33,10 +33,11 @@ def register(app: typer.Typer) -> None:
             int | None, typer.Option("--seed", metavar="S", help="Of what is drawn; another each time if not given.")
         ] = None,
     ) -> None:
-        """Accuracy gates: bem against finite elements and closed forms; exit 1 if any fails.
+        """Accuracy gates: bem against finite elements and closed forms; exit 1 if any fails or is undecided.
 
         Error bar, difference and tolerance are relative to the largest value of the curve; both figures are shown
-        where they differ most.
+        where they differ most. A row is undecided where the reference's error bar exceeds difference and tolerance;
+        of drawn problems the reference is then solved again on finer meshes.
 
         \b
         Examples:
@@ -135,17 +136,24 @@ def _show(rows: Sequence[Row], gates: int) -> None:
             f"{row.error_bar:.1e}",
             f"{row.difference:.1e}",
             f"{row.tolerance:.1e}",
-            "pass" if row.passed else "FAIL",
+            "pass" if row.passed else "UNDECIDED" if row.undecided else "FAIL",
         ]
         for row in rows
     ]
     table(headers, lines, right=(2, 3, 4, 5, 6), wide_only=(2, 3))
-    failed = [row for row in rows if not row.passed]
-    for row in failed:
-        typer.echo(
-            f"FAIL {row.case}, {row.quantity} at {row.where} [{row.unit}]: {row.bem:.9g}, not {row.reference:.9g}"
-        )
-    typer.echo(f"{len(rows) - len(failed)} of {len(rows)} rows passed in {gates} gates")
+    for row in rows:
+        at = f"{row.case}, {row.quantity} at {row.where} [{row.unit}]: {row.bem:.9g}"
+        if row.undecided:
+            typer.echo(
+                f"UNDECIDED {at}, reference {row.reference:.9g}; the error bar of the reference ({row.error_bar:.1e}) "
+                f"exceeds the difference ({row.difference:.1e}) and the tolerance ({row.tolerance:.1e}): "
+                "this row decides nothing. Solve the reference on finer meshes."
+            )
+        elif not row.passed:
+            typer.echo(f"FAIL {at}, not {row.reference:.9g}")
+    passed, undecided = sum(row.passed for row in rows), sum(row.undecided for row in rows)
+    added = f"; {undecided} decided nothing" if undecided else ""
+    typer.echo(f"{passed} of {len(rows)} rows passed in {gates} gates{added}")
 
 
 KEYS = ("case", "quantity", "bem", "reference", "error_bar", "difference", "tolerance", "passed")

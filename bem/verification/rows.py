@@ -29,6 +29,8 @@ class Row:
     bem, reference : both figures at the point where they differ most, in the case's own unit.
     error_bar, difference, tolerance : relative to the largest value of the curve; the error bar is the reference's.
     passed : difference <= tolerance.
+    undecided : difference > tolerance, but within the reference's own error bar, which is wider than any tolerance may
+        be: the row says nothing of bem, and is no pass.
     unit, where, reason : for people: the unit, the point, and why the tolerance is what it is.
     """
 
@@ -43,6 +45,11 @@ class Row:
     unit: str = ""
     where: str = ""
     reason: str = ""
+
+    @property
+    def undecided(self) -> bool:
+        """Return True if the reference's error bar exceeds both the difference and the tolerance."""
+        return not self.passed and self.difference <= self.error_bar
 
 
 @dataclass(frozen=True)
@@ -106,7 +113,10 @@ class Gate:
 
 
 def judge(case: str, curves: Iterable[Curve]) -> list[Row]:
-    """One row for each quantity: the point whose difference uses up most of its tolerance."""
+    """One row for each quantity: the point whose difference uses up most of its tolerance.
+
+    A point beyond its tolerance and beyond the reference's error bar goes before any that the bar leaves undecided.
+    """
     groups: dict[str, list[Curve]] = {}
     for curve in curves:
         groups.setdefault(curve.quantity, []).append(curve)
@@ -115,14 +125,16 @@ def judge(case: str, curves: Iterable[Curve]) -> list[Row]:
 
 def _row(case: str, quantity: str, group: Sequence[Curve]) -> Row:
     scale = max(group[0].floor, *(float(np.max(np.abs(curve.reference))) for curve in group))
-    worst: tuple[float, Row] | None = None
+    worst: tuple[tuple[bool, float], Row] | None = None
     for curve in group:
         difference = np.abs(curve.bem - curve.reference) / scale
         bar = curve.error_bar / scale
         tolerance = np.minimum(curve.allowance + bar, curve.limit)
         use = np.where(np.isfinite(difference), difference / tolerance, np.inf)
-        i = int(np.argmax(use))
-        if worst is None or use[i] > worst[0]:
+        failed = (use > 1) & ~(difference <= bar)
+        i = int(np.argmax(np.where(failed, use, -1.0) if failed.any() else use))
+        rank = (bool(failed[i]), float(use[i]))
+        if worst is None or rank > worst[0]:
             where = f"{curve.along}: " + ", ".join(f"{c:.6g}" for c in curve.coordinates[i])
             row = Row(
                 case,
@@ -137,6 +149,6 @@ def _row(case: str, quantity: str, group: Sequence[Curve]) -> Row:
                 where,
                 curve.reason,
             )
-            worst = (float(use[i]), row)
+            worst = (rank, row)
     assert worst is not None
     return worst[1]

@@ -76,6 +76,8 @@ def test_reproduction_allows_the_bar_and_no_more():
     assert len(results.reproduces(stored, dataclasses.replace(stored, quantities=[other]))) == 2
     moved = dataclasses.replace(stored.quantities[0], coordinates=[[0, 0, 0.5], [0, 0, 1.1]])
     assert "other points" in results.reproduces(stored, dataclasses.replace(stored, quantities=[moved]))[0]
+    fewer = dataclasses.replace(stored.quantities[0], coordinates=[[0, 0, 0.5]], values=[1 / 3], error_bar=[1e-5])
+    assert "other points" in results.reproduces(stored, dataclasses.replace(stored, quantities=[fewer]))[0]
 
 
 @settings(deadline=None, max_examples=60)

@@ -130,6 +130,21 @@ def test_every_part_of_a_mesh_is_finer_at_the_next_level(at_level, levels):
                 assert all(a.cells < b.cells for a, b in parts), (coarse, fine, axis)
 
 
+@pytest.mark.parametrize(("thickness", "half_width"), [(2.86, 0.375), (1.0, 0.25), (3.0, 1.0)])
+def test_cells_of_a_thick_layer_are_no_taller_than_the_load_is_wide(thickness, half_width):
+    """Equal cells, 0.72 tall on the finest mesh under a load 0.75 wide, left displacements 2 % off."""
+    grid = rectangle_grid(half_length=1.0, half_width=half_width, level=4, thickness=thickness)
+    heights = np.diff(grid.z[0].nodes())
+    assert heights[0] < half_width / 2
+    assert np.all(np.diff(heights) > 0)
+    assert heights[-1] < 0.3 * thickness  # at the interface nearly as low as the equal ones that resolve it
+
+
+def test_a_layer_as_thin_as_the_load_is_wide_has_equal_cells():
+    grid = rectangle_grid(half_length=1.0, half_width=0.5, level=4, thickness=0.5)
+    np.testing.assert_allclose(np.diff(grid.z[0].nodes()), 0.125, rtol=1e-12)
+
+
 def test_wider_boxes_leave_the_mesh_inside_alone():
     narrow, wide = (half_space_grid(thickness=0.3, level=2, boxes=n) for n in (0, 2))
     assert wide.x[: len(narrow.x)] == narrow.x

@@ -56,6 +56,33 @@ def test_error_bars_widen_a_tolerance_but_not_without_end():
     assert row.tolerance == rows.DISPLACEMENT_LIMIT
 
 
+def test_a_row_is_undecided_only_within_an_error_bar_beyond_its_limit():
+    """The reference of a drawn rectangle was 1.6 % off, with an error bar of 5.5 %."""
+    (row,) = rows.judge("c", [a_curve([1.016], [1.0], bar=0.055, quantity="transverse_displacement")])
+    assert row.undecided
+    assert not row.passed
+    for difference, bar in ((0.06, 0.055), (0.004, 0.003), (0.0035, 1e-4)):
+        (row,) = rows.judge("c", [a_curve([1 + difference], [1.0], bar=bar, quantity="transverse_displacement")])
+        assert not row.passed
+        assert not row.undecided
+    (row,) = rows.judge("c", [a_curve([1.002], [1.0], bar=0.055, quantity="transverse_displacement")])
+    assert row.passed
+    assert not row.undecided
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_failure_is_shown_before_a_point_that_decides_nothing(order):
+    """0.5 within an error bar of 0.9 uses up more of its tolerance than the failure of 0.02 on the other curve."""
+    unresolved, failed = a_curve([1.5, 1.0], [1.0, 1.0], bar=0.9), a_curve([1.02], [1.0])
+    (row,) = rows.judge("c", [unresolved, failed][::order])
+    assert row.difference == pytest.approx(0.02)
+    assert not row.undecided
+    both = a_curve([1.5, 1.02], [1.0, 1.0])
+    both.error_bar[:] = [0.9, 0.0]
+    (row,) = rows.judge("c", [both])
+    assert row.difference == pytest.approx(0.02)
+
+
 def test_a_figure_that_is_not_a_number_fails():
     (row,) = rows.judge("c", [a_curve([1.0, math.nan], [1.0, 1.0])])
     assert not row.passed
@@ -137,6 +164,19 @@ def test_a_failing_gate_ends_with_exit_code_one(monkeypatch, tmp_path):
     done = run("--json", str(path))
     assert done.exit_code == 1
     assert "FAIL" in done.output
+    assert json.loads(path.read_text())[0]["passed"] is False
+
+
+def test_an_undecided_row_is_no_failure_and_no_pass(monkeypatch, tmp_path):
+    curve = a_curve([1.016], [1.0], bar=0.055, quantity="transverse_displacement")
+    monkeypatch.setattr(registry, "select", lambda patterns: [Gate("wide", "test", "One is one.", lambda: [curve])])
+    path = tmp_path / "rows.json"
+    done = run("--json", str(path))
+    assert done.exit_code == 1
+    assert "FAIL" not in done.output
+    assert "UNDECIDED wide, transverse_displacement at axis: 0, 0, 0" in done.output
+    assert "5.5e-02" in done.output
+    assert "0 of 1 rows passed in 1 gates; 1 decided nothing" in done.output
     assert json.loads(path.read_text())[0]["passed"] is False
 
 
