@@ -20,7 +20,7 @@ from bem.scenes.template import scene_template
 KINDS = [name for name in kind_names() if any(table["kind"] == name for table in library().values())]
 
 
-MOST_KEYS = 25
+MOST_KEYS = 28
 """Lines of keys in a new scene: about as many as fit on a screen with their headings."""
 
 

@@ -30,7 +30,7 @@ class RunningInScene(OneLoadScene):
     kind: Literal["running-in"] = key("Kind of computation.", "basic", default="running-in")
     depths: wearing.WearDepthsScene = key("Depths at which stresses are computed.", "basic")
     wear: WearScenePart = key(
-        "Wear model: detachment criterion or wear law, and how material leaves.", "advanced", default=WearScenePart()
+        "Wear model: detachment criterion or wear law, and how material leaves.", "basic", default=WearScenePart()
     )
     cycles: RunningInCycles = key("Number of wear cycles.", "basic", default=RunningInCycles())
     sharing: WearingSharing = key("Load sharing between oil film and asperities.", "advanced", default=WearingSharing())

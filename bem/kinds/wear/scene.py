@@ -35,7 +35,7 @@ class WearScene(SceneModel):
     domain: DomainScene = key("The slice of the contact that is computed.", "basic")
     depths: wearing.WearDepthsScene = key("Depths at which stresses are computed.", "basic")
     wear: WearScenePart = key(
-        "Wear model: detachment criterion or wear law, and how material leaves.", "advanced", default=WearScenePart()
+        "Wear model: detachment criterion or wear law, and how material leaves.", "basic", default=WearScenePart()
     )
     cycles: CyclesScene = key(
         "Wear cycles. One cycle: contact solved, particles removed by wear.criterion (by default where the von Mises "

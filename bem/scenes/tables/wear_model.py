@@ -30,14 +30,14 @@ class WearScenePart(Table):
 
     criterion: Annotated[Criterion, LawKey("criterion")] = key(
         "Wear criterion (von_mises and others) or wear law (archard, archard_over_hardness, energy).",
-        "advanced",
+        "basic",
         default=VonMises(),
     )
     particle_criterion: Annotated[Criterion, LawKey("criterion", takes=_sizes)] | None = key(
         "Sizes of wear particles beside a wear law: in every cycle this stress criterion finds the regions that would "
         "come off and removes nothing; the law alone wears the surfaces. Leave it out beside a criterion, which gives "
         "sizes itself.",
-        "advanced",
+        "basic",
         default=None,
         example="averaged_von_mises",
     )
