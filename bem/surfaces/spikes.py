@@ -1,7 +1,8 @@
 """Spikes of an instrument: one test for their removal, for the caution on them and for the proposal to remove them.
 
 `despike` makes them missing, `count_spikes` counts them in heights, `spikes_of` in a surface that was read. Verified in
-tests/surfaces/test_spikes_on_slopes_and_lays.py and tests/surfaces/test_gaussian_maps_have_no_spikes.py.
+tests/surfaces/test_spikes_on_slopes_and_lays.py, test_gaussian_maps_have_no_spikes.py and
+test_self_affine_maps_have_no_spikes.py.
 """
 
 from __future__ import annotations
@@ -47,8 +48,9 @@ def despike(heights: FloatArray, spacing: tuple[float, float], threshold: float 
     Standard deviations are 1.4826 times the median absolute value, so that spikes do not count in them (Hampel, *J. Am.
     Stat. Assoc.* 69 (1974) 383). A plane or a parabola added to the heights changes nothing but rounding.
 
-    At 6, Gaussian roughness loses nothing, be it isotropic or with a lay of up to 20 times the length (tests). Lone
-    particles and pits up to three points wide go with the spikes.
+    At 6, Gaussian roughness loses nothing: self-affine, smooth or with a lay of up to 20 times the length (tests).
+    Lone particles and pits of up to 3 x 3 points go with the spikes. Spots that are four points long in any direction
+    stay (but for corners of large ones): more than half of the seven points on a line are theirs.
 
     heights : (nx, ny) [m], nan where points are missing. threshold : at least 3.
 
