@@ -306,6 +306,15 @@ def wears_on_a_track(scene: Any) -> bool:
     return wearing_bodies((scene.lower.build(), scene.upper.build()), scene.wear.wears)[0] == moving
 
 
+def volume_follows_load(scene: Any) -> bool:
+    """Return True if the worn volume is that of Archard's law for the contact load.
+
+    It is not of pieces, of cuts by third bodies, nor under a boundary film, whose defects follow the temperature.
+    """
+    wear = scene.wear
+    return wear.criterion.wears_by_pressure and wear.film_defect is None and wear.third_bodies is None
+
+
 def cycles_of_a_turn(shape: tuple[int, int], shift: float) -> int:
     """Return the cycles after which a moving surface is where it was, to half its slide in a cycle; 0 at rest.
 

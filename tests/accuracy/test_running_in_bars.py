@@ -2,6 +2,7 @@
 
 import copy
 import json
+import math
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from small_scenes import PATCH
 
 from bem import ConvergenceError, Grid
 from bem.accuracy import running_in_bars
-from bem.accuracy.wear import FROM_START, MIXED_RULES
+from bem.accuracy.wear import FROM_START, MIXED_RULES, worn_change
 from bem.kinds.running_in.errors import at_resolution
 from bem.runs import run_scene
 from bem.scenes import build, get_kind
@@ -125,6 +126,44 @@ def test_the_volume_of_a_law_by_pressure_has_the_error_of_the_load_and_not_of_th
     alone = cycles | {"coarser_grid": False}
     finer = summary_of(tmp_path / "fine", wear=wear, cycles=alone, speeds=["0.003 m/s"], grid=fine)
     assert abs(finer["wear_volume_um3"][0] / found["wear_volume_um3"][0] - 1) < 2 * volume
+    # its rate is that of the load, too
+    rate = found["criterion_wear_rate_mm3_Nm_error"][0] / found["criterion_wear_rate_mm3_Nm"][0]
+    assert rate == pytest.approx(volume, rel=1e-6)
+
+
+def test_bars_of_a_running_in_that_hardly_wears_are_those_of_its_start(tmp_path):
+    """Bars held a fraction of Sq, of lambda and of the load however little wore: 15 nm of Sq where 4 fm were worn."""
+    law = {"kind": "archard", "specific_wear_rate": "1e-9 mm^3/(N*m)", "distance": "1 mm"}
+    surface = {"kind": "generated", "rms_height": "120 nm", "correlation_length": "4 um", "drawn_on": [64, 32]}
+    lower = {"material": "steel-disk-110HV", "surface": surface}
+    changes = {"wear": {"criterion": law}, "speeds": ["0.12 m/s"], "lower": lower}
+    found = summary_of(tmp_path, **changes)
+    fine = {"shape": [128, 64], "spacing": "0.4 um", "periodic": [False, True]}
+    alone = SCENE["cycles"] | {"coarser_grid": False}
+    changes["wear"] = changes["wear"] | {"shift": 6}
+    finer = summary_of(tmp_path / "fine", **changes, grid=fine, cycles=alone, sharing={"film_points": 400})
+    assert 0 < found["worn_depth_nm"][0] < 1e-4
+    for key in ("Sq_final_nm", "lambda_ratio", "contact_load_N", "criterion_wear_rate_mm3_Nm"):
+        assert abs(found[key][0] - finer[key][0]) < found[f"{key}_error"][0], key
+    assert found["Sq_final_nm_error"][0] < 1e-4, "15 nm"
+    assert found["lambda_ratio_error"][0] < 4 * abs(found["lambda_ratio"][0] - finer["lambda_ratio"][0]), "0.13"
+
+
+@pytest.mark.internal
+def test_the_error_of_sq_is_at_most_that_of_its_start_and_what_wear_changes():
+    """A sine of heights and a sine of depths in phase: Sq falls by their whole, and a seminorm changes by no more."""
+    assert worn_change(1.0, 0.8, 0.2) == pytest.approx(0.2)
+    assert worn_change(1.0, 1.0, 0.0) == 0.0
+    # depths that are a tenth of the heights and not in phase change Sq by half of their square
+    assert worn_change(1.0, math.sqrt(1.01), 0.1) == pytest.approx(0.01, rel=0.01)
+    figures = dict.fromkeys(MIXED_RULES, 1.0) | {"worn_depth": 1e-3}
+    coarser = figures | {"worn_depth": 5e-3, "Sq_initial": 1.1, "Sq_final": 1.15}
+    hardly = running_in_bars(figures, coarser, unworn_error=0.02, worn_rms=1e-3).values
+    assert 0.02 < hardly["Sq_final"] <= 0.02 + 2e-3
+    assert running_in_bars(figures, coarser, unworn_error=0.0, worn_rms=1e-3).values["Sq_final"] <= 2e-3
+    assert running_in_bars(figures, coarser, unworn_error=0.0, worn_rms=1.0).values["Sq_final"] > 0.3
+    for name in ("lambda_ratio", "contact_load", "friction"):
+        assert hardly[name] < 0.015, name
 
 
 def test_odd_grids_have_none_and_say_so(tmp_path):

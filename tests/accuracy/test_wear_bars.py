@@ -108,6 +108,19 @@ def test_bars_of_what_converges_shrink_with_the_differences_and_those_of_sizes_d
     assert same["worn_volume_per_cycle"] > 0.02
 
 
+@pytest.mark.internal
+def test_what_wear_cannot_change_has_no_part_of_its_difference():
+    """A volume that the given load decides, unworn heights of a whole track, and Sq where hardly anything wears."""
+    figures = dict.fromkeys(RULES, 1.0)
+    other = figures | {"worn_depth": 0.5}
+    free = wear_bars(figures, other).values
+    known = wear_bars(figures, other, worn_rms=1e-3, tracked=True, by_load=True).values
+    for name, most in (("worn_volume_per_cycle", 0.0), ("Sq_initial", 0.0), ("Sq_final", 2e-3)):
+        assert known[name] <= most
+        assert free[name] > 0.03
+    assert known["worn_depth"] == free["worn_depth"]
+
+
 def test_the_plan_and_the_notes_know_of_it(tmp_path):
     steps = {step.name: step for step in plan_scene(SCENE, ASKED)[1].steps}
     assert not steps["error bars"].skipped

@@ -35,7 +35,7 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
     if there is not None and not wearing.film_is_halved(scene):
         finer_film = coarser(finer)
         there = None if finer_film is None else there
-    by_load = volume_follows_load(scene)
+    by_load = wearing.volume_follows_load(scene)
     known = [name for name in MIXED_RULES if getattr(found, name) is not None and (by_load or name != BY_LOAD)]
     # of temperatures the rise
     cool = dict.fromkeys(TEMPERATURES, scene.oil.temperature or 0.0)
@@ -44,7 +44,8 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
         return {name: getattr(one, name) - cool.get(name, 0.0) for name in known}
 
     coarse, finer_points = (None if one is None else figures(one) for one in (there, finer_film))
-    bars = running_in_bars(figures(found), coarse, finer_points, full_heat=scene.thermal == "full")
+    heights = {} if coarse is None else _of_heights(scene, found)
+    bars = running_in_bars(figures(found), coarse, finer_points, full_heat=scene.thermal == "full", **heights)
     bars = wearing.with_least_area(bars, found, scene.contact.hardness)
     if found.minimum_film > 0:
         to_ratio = found.lambda_ratio_mixed / found.minimum_film
@@ -52,30 +53,25 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
     if found.worn_depth > 0 and not by_load:  # the volume follows the depth: it has the mean depth's relative error
         to_volume = found.wear_volume / found.worn_depth
         bars |= bars.renamed({"worn_depth": BY_LOAD}, lambda error: to_volume * error)
-    return bars if there is None else bars | _of_heights(scene, found)
+    return bars
 
 
-def volume_follows_load(scene: RunningInScene) -> bool:
-    """Return True if the worn volume is that of Archard's law for the contact load.
+def _of_heights(scene: RunningInScene, found: RunningInRecord) -> dict[str, float]:
+    """Return the error of the unworn rms height and the rms of the worn depths [m], as `running_in_bars` takes them.
 
-    It is not of pieces, of cuts by third bodies, nor under a boundary film, whose defects follow the temperature.
+    The unworn heights alone decide the first: the coarser loop's lie half a cell beside where it has them.
     """
-    wear = scene.wear
-    return wear.criterion.wears_by_pressure and wear.film_defect is None and wear.third_bodies is None
-
-
-def _of_heights(scene: RunningInScene, found: RunningInRecord) -> ErrorBars:
-    """Estimate errors of what the unworn heights alone decide: the coarser loop's lie half a cell beside where it has
-    them."""
-    from bem.accuracy.bars import GRID, ErrorBars
-    from bem.wear.outcome import rms_error
+    from bem.wear.outcome import hertz_fraction, rms_error, rms_within
 
     setup = scene.setup(**scene.sharing.model_dump(exclude={"film_shape"}), heat_mesh=1.0)
     along, across = setup.smooth.half_axes(setup.load)
     # on a body that moves through the contact, the whole length of the track counts
-    along = math.inf if wearing.wears_on_a_track(scene) else along
-    error = rms_error(found.height_before, setup.grid, (along, across))
-    return ErrorBars.together({GRID: {"Sq_initial": error}})
+    axes = (math.inf if wearing.wears_on_a_track(scene) else along, across)
+    region = wearing.worn_region(scene, hertz_fraction(setup.grid, (along, across)))[1]
+    return {
+        "unworn_error": rms_error(found.height_before, setup.grid, axes),
+        "worn_rms": rms_within(found.height_before - found.height_after, region),
+    }
 
 
 def at_resolution(scene: RunningInScene, factor: float, across: float | None = None) -> RunningInScene:

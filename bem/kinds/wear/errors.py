@@ -19,13 +19,22 @@ if TYPE_CHECKING:
 def bars(scene: WearScene, initial: tuple[FloatArray, FloatArray], found: WearRecord) -> ErrorBars:
     """Estimate errors from the loop on every second cell, with the reported sizes."""
     from bem.accuracy.wear import RULES, wear_bars
+    from bem.wear.outcome import rms_within
 
     def figures(record: WearRecord) -> dict[str, Any]:
         return {name: getattr(record, name) for name in (*RULES, "criterion_wear_rate")}
 
     there = wearing.on_twice_the_cell(scene, initial, slice_of(scene)[0], wear_down, at_resolution)
     reported = {f"{scene.sizes.report}_mean_{size}": f"reported_{size}" for size in pieces.QUANTITIES}
-    judged = wear_bars(figures(found), None if there is None else figures(there), reported)
+    wore = found.height_before - found.height_after
+    judged = wear_bars(
+        figures(found),
+        None if there is None else figures(there),
+        reported,
+        worn_rms=rms_within(wore, (wore != 0).any(axis=1)) if wore.any() else 0.0,
+        tracked=wearing.wears_on_a_track(scene),
+        by_load=wearing.volume_follows_load(scene) and scene.wear.traction.slides,
+    )
     return wearing.with_least_area(judged, found, scene.cylinder.hardness)
 
 
