@@ -32,6 +32,8 @@ _RESOLVED = 0.7
 _SAMPLED = 1.1
 """Relative change of the curvature up to which a surface has no waves shorter than four cells: 340 generated surfaces
 had at most 1.03 with such waves alone, and at least 1.17 with shorter ones."""
+_BENDS = 0.1
+"""Part of the curvature (squared) from which an axis counts in the smoothness of a surface."""
 SPOT = 6.0
 """Cells across the mean spot, 4 area / perimeter, from which on contact areas are of second order."""
 _FEWEST_ACROSS = 3
@@ -157,7 +159,7 @@ def regime_of(case: ContactCase) -> Regime:
     """Return how well the grid of twice the cell represents the contact: surface and spots."""
     solution = case.solution
     across = 4 * solution.contact_area / solution.contact_perimeter if solution.contact_perimeter > 0 else math.inf
-    if surface_is_resolved(case.undeformed, case.grid) and across > SPOT * math.sqrt(case.grid.cell_area):
+    if surface_is_resolved(case.undeformed, case.grid) and across > SPOT * edge_cell(solution.pressure, case.grid):
         return Regime.RESOLVED
     return Regime.SAMPLED if _is_smooth(case.undeformed, case.grid, _SAMPLED) else Regime.UNRESOLVED
 
@@ -169,8 +171,11 @@ def surface_is_resolved(gap: FloatArray, grid: Grid) -> bool:
 
 
 def _is_smooth(gap: FloatArray, grid: Grid, most: float) -> bool:
-    """Return True if the curvature of a surface changes from cell to cell by at most this fraction of itself (rms)."""
-    turns, bends = 0.0, 0.0
+    """Return True if the curvature of a surface changes from cell to cell by at most this fraction of itself (rms).
+
+    Where cells are longer along one axis, the surface is as smooth as along the axis of the largest changes.
+    """
+    turns, bends = np.zeros(2), np.zeros(2)
     for axis in (0, 1):
         n = grid.shape[axis]
         if n < 4:
@@ -179,9 +184,12 @@ def _is_smooth(gap: FloatArray, grid: Grid, most: float) -> bool:
         for first, last in blocks.row_blocks(lines.shape):
             second = np.diff(lines[first : last + 3], 2, axis=0) / square  # one more than those of the block
             third = np.diff(second, axis=0)
-            bends += float(np.sum(second[: last - first] ** 2)) / ((n - 2) * across)
-            turns += float(np.sum(third[: last - first] ** 2)) / ((n - 3) * across)
-    return turns <= most**2 * bends
+            bends[axis] += float(np.sum(second[: last - first] ** 2)) / ((n - 2) * across)
+            turns[axis] += float(np.sum(third[: last - first] ** 2)) / ((n - 3) * across)
+    if grid.spacing[0] == grid.spacing[1]:
+        return bool(turns.sum() <= most**2 * bends.sum())
+    counts = bends >= _BENDS * bends.sum()
+    return bool(np.all(turns[counts] <= most**2 * bends[counts]))
 
 
 def edge_fraction(case: ContactCase) -> float:
@@ -189,7 +197,34 @@ def edge_fraction(case: ContactCase) -> float:
     solution = case.solution
     if not solution.contact_area > 0:
         return 0.0
-    return solution.contact_perimeter * math.sqrt(case.grid.cell_area) / solution.contact_area
+    cell = edge_cell(solution.pressure, case.grid)
+    return solution.contact_perimeter * cell / solution.contact_area
+
+
+def edge_cell(pressure: FloatArray, grid: Grid, above: float = 0.0) -> float:
+    """Return the width of cells by which the edge of the region under more than a pressure errs [m].
+
+    Each face between a cell inside and one outside has a cell beside it that is dx wide across faces of length dy, and
+    dy across those of length dx. The mean of these widths counts, and where most faces are crossed along one axis, so
+    that the region has fewest cells along it, the width along this axis. That is the wider cell of spots that are as
+    long as wide, dx alone under a cylinder along y, and the width of square cells.
+
+    pressure : (nx, ny) [Pa]. above : pressure that the region exceeds [Pa].
+    """
+    dx, dy = grid.spacing
+    if dx == dy:
+        return dx
+    region = pressure > above
+    along_x, along_y = (int(np.count_nonzero(np.diff(region, axis=axis))) for axis in (0, 1))
+    if not along_x + along_y:
+        return widest_cell(grid)
+    lengths = along_x * dy, along_y * dx
+    return dx * dy * max((along_x + along_y) / sum(lengths), max(along_x, along_y) / max(lengths))
+
+
+def widest_cell(grid: Grid) -> float:
+    """Return the largest spacing of a grid [m]; an axis of a single cell does not count beside a longer one."""
+    return max(d for n, d in zip(grid.shape, grid.spacing, strict=True) if n > 1 or max(grid.shape) == 1)
 
 
 def mean_opening(gap: FloatArray) -> float:

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.accuracy.bars import DEPTHS, GRID, ErrorBars
-from bem.accuracy.coarsened import Coarser, ContactCase, edge_fraction, regime_of
+from bem.accuracy.coarsened import Coarser, ContactCase, edge_fraction, regime_of, widest_cell
 from bem.accuracy.contact import peak_rise, touches_sharply
 from bem.accuracy.edge import EDGE
 from bem.accuracy.richardson import Table, rows
@@ -131,7 +131,7 @@ def coating_bars(
         there, von_mises(there), maxima.depths, coarser.solution.pressure, coarser.grid, body, friction
     )
     at_depths = _errors_at_depths(case, below, own, coarse, body)
-    near = maxima.depths < np.sqrt(case.grid.cell_area)
+    near = maxima.depths < widest_cell(case.grid)
     reason = _no_limit(case)
     if reason is not None:
         at_depths = {name: np.where(near, np.nan, error) for name, error in at_depths.items()}
@@ -159,7 +159,7 @@ def _substrate_bars(
     k = int(np.argmax(values))
     plane, value, depth = below.von_mises[beneath[k]], float(values[k]), float(depths[k])
     there = subsurface_stress(coarser.solution.pressure, coarser.grid, body, np.array([depth]), friction=friction)
-    near, edge = depth < math.sqrt(case.grid.cell_area), edge_fraction(case) * value
+    near, edge = depth < widest_cell(case.grid), edge_fraction(case) * value
     indicators = {"edge": {name: edge}, "surface": {name: edge if near else 0.0}}
     indicators["peak"] = {name: peak_rise(plane, case.grid)}
     coarse = {name: float(von_mises(there).max())}
@@ -213,7 +213,7 @@ def _errors_at_depths(
 ) -> dict[str, FloatArray]:
     """Return the errors of the grid at each depth (nz,) [Pa], by the figures that they are for."""
     regime, depths = regime_of(case), fine.highest.depths
-    near = depths < np.sqrt(case.grid.cell_area)
+    near = depths < widest_cell(case.grid)
     found, other = ({name: getattr(one.highest, field) for name, field in _FIELDS.items()} for one in (fine, coarse))
     edge = {name: edge_fraction(case) * value for name, value in found.items()}
     pressed = np.where(near, fine.edge.pressure, 0.0)

@@ -18,10 +18,12 @@ from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars
 from bem.accuracy.coarsened import (
     Coarser,
     ContactCase,
+    edge_cell,
     edge_fraction,
     mean_opening,
     regime_of,
     surface_is_resolved,
+    widest_cell,
 )
 from bem.accuracy.richardson import Regime, Table, relative, rows
 from bem.accuracy.sharp import is_sharp
@@ -146,7 +148,7 @@ def _widen_under_tension(
     Its area is then of first order, so that the whole difference is left, and too large by a strip along the edge; and
     cells within two of the edge may carry more than those inside.
     """
-    cell = max(d for n, d in zip(case.grid.shape, case.grid.spacing, strict=True) if n > 1 or max(case.grid.shape) == 1)
+    cell = widest_cell(case.grid)
     length = max(body.material.elastocapillary_length for body in case.operator.bodies)
     strip = _STRIP * cell * min(1.0, 4 * length / cell) * fine["contact_perimeter"]
     share = strip / fine["contact_area"] if fine["contact_area"] > 0 else 0.0
@@ -197,11 +199,12 @@ def _overlap_error(case: ContactCase, coarser: Coarser, regime: Regime, approach
 
 def _plastic_edge_fraction(case: ContactCase) -> float:
     """Return the fraction of the plastic area within a cell of its edge, which is not that of the contact."""
-    solution, cell = case.solution, math.sqrt(case.grid.cell_area)
+    solution = case.solution
     if case.hardness is None or not solution.plastic_area > 0:
         return 0.0
-    modulus = case.operator.modulus_at(0.5 * math.pi / cell)
+    modulus = case.operator.modulus_at(0.5 * math.pi / math.sqrt(case.grid.cell_area))
     region = plastic_region(solution.pressure, solution.gap, case.undeformed, case.hardness, case.grid, modulus)
+    cell = edge_cell(solution.pressure, case.grid, above=math.nextafter(case.hardness, 0.0))
     return region.perimeter * cell / solution.plastic_area
 
 
@@ -312,11 +315,12 @@ def _residual_errors(case: ContactCase, fine: Mapping[str, float]) -> dict[str, 
     """Return the largest errors that the residual leaves.
 
     Surfaces that miss contact by a height change approach and gaps by as much, and pressures by that of waves of two
-    cells of this height, E* q h / 2.
+    of the narrower cells of this height, E* q h / 2.
     """
     size = blocks.deviation(case.undeformed) or float(np.abs(case.solution.displacement).max())
     height = case.solution.residual * size
-    wavenumber = math.pi / math.sqrt(case.grid.cell_area)
+    long = [d for n, d in zip(case.grid.shape, case.grid.spacing, strict=True) if n > 1]
+    wavenumber = math.pi / min(long, default=min(case.grid.spacing))
     pressure = 0.5 * case.operator.modulus_at(wavenumber) * wavenumber * height
     mean = fine["mean_contact_pressure"]
     fraction = min(pressure / mean, 1.0) if mean > 0 else 0.0

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.accuracy.bars import GRID, POINTS, ErrorBars
-from bem.accuracy.coarsened import SPOT, half_grid, other_points, surface_is_resolved
+from bem.accuracy.coarsened import SPOT, edge_cell, half_grid, other_points, surface_is_resolved
 from bem.accuracy.film import FEWEST
 from bem.accuracy.richardson import Regime, Table, at, cover_parts, follow, relative, rows, share_error, to_half
 from bem.contact.nested_iteration import sample
@@ -287,7 +287,9 @@ def _edge_fraction(solution: MixedSolution) -> float:
     """Return the fraction of the contact area within a cell of its edge; 0 without contact and for closed forms."""
     contact = solution.contact
     area, perimeter = getattr(contact, "contact_area", 0.0), getattr(contact, "contact_perimeter", 0.0)
-    return perimeter * math.sqrt(solution.grid.cell_area) / area if area > 0 and perimeter > 0 else 0.0
+    if not (area > 0 and perimeter > 0):
+        return 0.0
+    return float(perimeter * edge_cell(solution.contact_pressure, solution.grid) / area)
 
 
 def _shares(case: MixedCase, points: int, heat_mesh: float = 1.0) -> Shares:

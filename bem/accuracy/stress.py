@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from bem.accuracy.bars import DEPTHS, GRID, PRESSING, PRESSING_FACTOR, ErrorBars
-from bem.accuracy.coarsened import Coarser, ContactCase, edge_fraction, regime_of
+from bem.accuracy.coarsened import Coarser, ContactCase, edge_fraction, regime_of, widest_cell
 from bem.accuracy.contact import touches_sharply
 from bem.accuracy.edge import EDGE
 from bem.accuracy.richardson import Table, rows
@@ -114,7 +114,7 @@ def _of_highest_stress(
     k = 0 if below.highest_at_edge else int(np.argmax(highest))
     if k == len(depths) - 1 and not few:
         return ErrorBars.unknown(NAMES, NoBar.DEEPEST_DEPTH)
-    near = bool(depths[k] < np.sqrt(case.grid.cell_area))
+    near = bool(depths[k] < widest_cell(case.grid))
     if case.hardness is not None and near and (case.solution.pressure >= case.hardness).any():
         return ErrorBars.unknown(NAMES, NoBar.STRESS_OF_CAPPED)
     if near and touches_sharply(case):
