@@ -78,8 +78,8 @@ _OF_CONTACT = ("boundary_friction_part", "contact_load", "contact_area_fraction"
 _OF_FRICTION = ("friction_run_in", "friction")
 BY_LOAD = "wear_volume"
 """Volume worn by a law of pressure and distance, V = k F s (Archard 1953): it has the error of the load F, as its rate
-has, where the depth within the contact region has that of the heights. Volumes of pieces have no row: they follow the
-depth."""
+has, and the depth within the contact region that of the region's share of the volume besides. Volumes of pieces have no
+row: they follow the depth."""
 _RATE = "criterion_wear_rate"
 """Wear rate of the last cycles; of a law by pressure and distance it follows the load, as the volume does."""
 MIXED_RULES = Table(
@@ -246,6 +246,11 @@ def _mixed_errors(
             passes = "boundary_friction_part" if name in _OF_FRICTION else name
             errors[name] += _PASSES * lighter * abs(found[passes])
     follow(errors, "contact_area_fraction", "contact_load", found)
+    if BY_LOAD in own and min(own[BY_LOAD], coarser[BY_LOAD]) > 0:  # the region's share of the volume is not the load's
+        there = coarser["worn_depth"] * own[BY_LOAD] / coarser[BY_LOAD]
+        errors["worn_depth"] = own["worn_depth"] * errors[BY_LOAD] / own[BY_LOAD] + MIXED_RULES["worn_depth"].error(
+            own["worn_depth"] - there, {}
+        )
     # both loads sum to the given one: a film under less load is at most as much thicker (rigid walls)
     fraction = min(errors["contact_load"] / film, 1.0) if film > 0 else 1.0
     errors["film_load"] = errors["contact_load"]
