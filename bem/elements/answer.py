@@ -36,7 +36,7 @@ from bem.elements.gear_scuffing import (
     sliding_power,
     tooth_loss_power,
 )
-from bem.elements.model import LEAST_ASPERITY_SHARE
+from bem.elements.model import FULL_FILM, LEAST_ASPERITY_SHARE
 from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import USUAL_BALL_FRICTION, BearingModel, usual_ball_moment
 from bem.elements.rough_scenes import FINISHES
@@ -577,7 +577,13 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
     if thinnest.film_ratio is None:
         return f"not known: give rms_roughness, of both surfaces together; {film}"
     ratio = thinnest.film_ratio
-    regime = "full film" if ratio >= 3 else "mixed lubrication" if ratio < 1 else "thin film, highest asperities touch"
+    regime = (
+        "full film"
+        if ratio >= FULL_FILM
+        else "mixed lubrication"
+        if ratio < 1
+        else "thin film, highest asperities touch"
+    )
     share = max(one.asperity_share or 0.0 for one in runs)
     touching = (
         f"; asperities carry some {percent(share)} of the load, an estimate" if share >= LEAST_ASPERITY_SHARE else ""
@@ -675,9 +681,10 @@ def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str,
     losses, said = [power.film], [film]
     if power.with_asperities is not None and power.with_asperities > 1.01 * power.film:
         losses.append(power.with_asperities)
+        unsolved = ", and the whole load where no film is solved," if power.counted < 1 else ""
         said.append(
-            f"{plain_digits(power.with_asperities, 3)} W if the estimated share of asperities rubs with boundary "
-            f"friction {model.boundary_friction:g}"
+            f"{plain_digits(power.with_asperities, 3)} W if the estimated share of asperities{unsolved} rubs with "
+            f"boundary friction {model.boundary_friction:g}"
         )
     if power.counted < 1:
         counts = "are left out" if power.with_asperities is None else "are left out of the former"
@@ -770,8 +777,9 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
         rise = warmest - (model.film_temperature or math.nan)
         warmer = f"rolling warms the surfaces by up to {rise:.2g} K" if rise >= 1 else "flash temperature below 1 K"
         return f"{said}; {warmer}, as both surfaces roll at one speed"
+    within = "" if hottest.sliding is None else " of sliding within the contact"
     return (
-        f"{said}; highest flash temperature {hottest.flash:.3g} K at {place_words(element, hottest.contact)} "
+        f"{said}; highest flash temperature{within} {hottest.flash:.3g} K at {place_words(element, hottest.contact)} "
         f"(Blok, with the film's friction, one temperature for both surfaces){unsolved}"
     )
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from bem.elements.bush_polymers import LARGEST_EXPANSION, LEAST_EXPANSION, SERVICE_TEMPERATURE
-from bem.elements.model import LEAST_ASPERITY_SHARE
+from bem.elements.model import FULL_FILM, LEAST_ASPERITY_SHARE
 from bem.elements.plain_bush import (
     AREA_FACTOR,
     POLYMER,
@@ -225,6 +225,7 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
     temperature = model.bulk_temperature if power is None else bush_temperature(model, power)
     if temperature is not None:
         notes += _temperature_notes(model, film, temperature)
+    journal = None if film is None else journal_of(model, film)
     if film is not None and model.rms_roughness is None:
         notes += _roughness_missing(model)
     elif (
@@ -233,9 +234,7 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
         and film.asperity_share < LEAST_ASPERITY_SHARE
         and model.specific_wear_rate
     ):
-        moves = "turns" if model.oscillation is None else "swings"
-        notes.append(BUSH_WEARS_IN_FILM(share=film.asperity_share, reason=moves))
-    journal = None if film is None else journal_of(model, film)
+        notes.append(_wears_in_film(model, film, journal))
     if film is not None and journal is not None:
         asperities = model.boundary_friction * film.asperity_share
         notes.append(
@@ -251,6 +250,18 @@ def bush_notes(model: PlainBushModel, film: FilmOfBush | None) -> tuple[Note, ..
     if film is not None and film.touching:
         notes.append(_touching(model, film))
     return tuple(notes)
+
+
+def _wears_in_film(model: PlainBushModel, film: FilmOfBush, journal: JournalFilm | None) -> Note:
+    """Return the note on the wear of a bush with next to no load on asperities; `journal` the lower bound of its film,
+    None where the film is known."""
+    assert model.rms_roughness is not None
+    ratio = math.inf if journal is None else journal.minimum_thickness / model.rms_roughness
+    if model.oscillation is not None:
+        return BUSH_WEARS_IN_FILM(share=film.asperity_share, reason="swings")
+    if ratio < FULL_FILM:
+        return BUSH_WEARS_IN_FILM(share=film.asperity_share, ratio=ratio, reason="bounds")
+    return BUSH_WEARS_IN_FILM(share=film.asperity_share, reason="turns")
 
 
 def _touching(model: PlainBushModel, film: FilmOfBush) -> Note:

@@ -586,8 +586,16 @@ class Element:
                     self.model, contact, bodies, self._oil_table(), self._patch_modulus, self.found.passes
                 )
             else:
+                if self._layered:
+                    bodies = self._film_body_tables()
                 made, more = mixed_scene(self.model, contact, bodies, self._oil_table(), kind, self._patch_modulus)
-            return made | ({"thermal": "off"} if self._layered else {}), more
+                if self._layered:
+                    stiffer = with_unit(bodies["upper"]["material"]["youngs_modulus"], "Pa")
+                    more.append(
+                        f"the bush on its housing is a half-space of {stiffer}, on which the contact is as wide: its "
+                        "asperities are too stiff"
+                    )
+            return made, more
         shared = {
             **self._film_body_tables(),
             "oil": self._oil_table(),

@@ -18,6 +18,8 @@ from bem.scenes.common import MaterialScene, PositiveLength, Table, problem
 from bem.scenes.oil import OilScene
 from bem.scenes.units import Dimension, Ratio, Temperature, Volume, WearCoefficient
 
+FULL_FILM = 3.0
+"""Lambda ratio from which a film counts as full."""
 LEAST_ASPERITY_SHARE = 0.01
 """Share of the load on asperities below which friction is that of the film."""
 BOUNDARY_FRICTION = 0.12

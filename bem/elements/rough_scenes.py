@@ -18,7 +18,7 @@ from bem.elements.passes import NAMES, Passes, passes_of
 from bem.elements.plain_bush import PlainBushModel
 from bem.errors import InputError
 from bem.grid import Grid
-from bem.materials import Body, softer_hardness
+from bem.materials import Body, contact_modulus, softer_hardness
 from bem.physical_constants import ROOM_TEMPERATURE
 from bem.quantities import si
 from bem.scenes.wearing import cycles_of_a_turn
@@ -253,16 +253,18 @@ def mixed_scene(
     if kind == "running-in":
         if not model.specific_wear_rate:
             assumed.append(_RATE_IN_WORDS)
-        return made | _running_in(model, patch, rolls=contact.speeds[1] != 0), assumed
+        return made | _running_in(model, patch, modulus, rolls=contact.speeds[1] != 0), assumed
     return made, assumed
 
 
-def _running_in(model: ElementModel, patch: Patch, *, rolls: bool) -> dict[str, Any]:
+def _running_in(model: ElementModel, patch: Patch, modulus: float, *, rolls: bool) -> dict[str, Any]:
     """Return the keys of running-in: Archard's wear, which smooths summits, with the particles of a criterion.
 
     The body that wears moves through the contact, so that its whole track wears, where both bodies do (`rolls`).
 
     Along grooves, where the cells are much longer than across them, no criterion could tell particles from cells.
+
+    modulus : contact modulus of the scene's bodies [Pa].
 
     A cycle wears as much as keeps the step stable, half the compliance by which the bodies give way from cell to cell;
     the run has two turns of the moving roughness, and means over one.
@@ -270,7 +272,9 @@ def _running_in(model: ElementModel, patch: Patch, *, rolls: bool) -> dict[str, 
     rate = model.specific_wear_rate or ASSUMED_WEAR_RATE
     cell = (patch.lengths[0] / patch.shape[0], patch.lengths[1] / patch.shape[1])
     bodies = Body(model.first.build()), Body(model.second.build())
-    distance = _STABLE_STEP * cell_to_cell_compliance(Grid((32, 32), cell), bodies) / rate
+    compliance = cell_to_cell_compliance(Grid((32, 32), cell), bodies)
+    compliance *= contact_modulus(model.first.build(), model.second.build()) / modulus
+    distance = _STABLE_STEP * compliance / rate
     shift = max(_SHIFT, round(patch.shape[0] / _TURN))
     turn = cycles_of_a_turn(patch.shape, shift)
     particles: dict[str, Any] = {}

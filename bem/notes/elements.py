@@ -332,7 +332,7 @@ _BOUNDS = (
     "The film is {{share:.0%}} of the radial clearance, and its pressure reaches far around the shaft. It is at most "
     "{{film:si m}} thick, as of an endless cylinder on a flat, from whose ends nothing leaks (friction coefficient{of} "
     "{{friction:.2g}}), and by an estimate at least {{journal:si m}}, as of a rigid journal bearing of this length, "
-    "which does not flatten (friction coefficient {{turning:.2g}})."
+    "which does not flatten (friction coefficient of its film {{turning:.2g}})."
 )
 """Sentence on the two bounds; `of` says of what the friction is."""
 BUSH_BOUNDS = define(
@@ -365,6 +365,12 @@ BUSH_WEARS_IN_FILM = define(
             "At the mean speed asperities have {share:.1%} of the load; wear arises at the turning points.",
             "Take the specific wear rate of an oscillating test in this lubricant.",
             headline="At the mean speed a film carries the load; the turning points wear.",
+        ),
+        "bounds": Reason(
+            "Asperities have {share:.1%} of the load at the upper bound of the film. At its lower bound, a lambda "
+            "ratio of {ratio:.2g}, surfaces touch more, and friction is larger than that of the film.",
+            "Take the specific wear rate of a test in this lubricant at these lambda ratios.",
+            headline="Wear and life are those of rubbing surfaces, but a film may carry the load.",
         ),
     },
 )

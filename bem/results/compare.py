@@ -106,10 +106,11 @@ def unpaired_words(found: Sequence[Difference], names: Sequence[str]) -> list[st
     """Return a sentence for each run whose speeds, loads or other places differ from those of the first run."""
     said = []
     for item in found:
+        others = [i for i in sorted(item.unpaired) if item.values[i] != item.values[0]]
         word = {"speed_m_s": "speeds", "load_N": "loads"}.get(item.key, f"values of {item.key.rpartition('_')[0]}")
         said += [
             f"{names[i]} has other {word} than {names[0]}: no change is given of figures listed over them."
-            for i in (sorted(item.unpaired) if item.key in PLACES else ())
+            for i in (others if item.key in PLACES else ())
         ]
     return said
 

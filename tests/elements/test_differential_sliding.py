@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from bem.accuracy import traction_figures
-from bem.elements.answer import friction_power
+from bem.elements.answer import answer, friction_power
 from bem.elements.differential_sliding import ball_sliding, film_stress, sliding_in_film
 from bem.elements.element import load_element
 from bem.elements.rolling_bearing import usual_ball_moment
@@ -140,6 +140,8 @@ def test_oil_films_have_about_half_of_the_usual_friction_moment(bearing):
     power = friction_power(bearing, run_all(bearing, most=4))
     assert 0.25 < power.film / bearing.model.speed / usual_ball_moment(bearing.model) < 0.9
     assert power.within_contacts > power.film - power.within_contacts
+    said = dict(answer(bearing, run_all(bearing, most=2)))
+    assert "highest flash temperature of sliding within the contact" in said["temperatures"]
 
 
 def test_cold_stress_is_that_of_the_oil(bearing):

@@ -21,6 +21,7 @@ from bem.elements.figure import element_figure
 from bem.elements.plain_bush import WORN_IN, crescent_distance, sliding_to_depth
 from bem.elements.running import run_all
 from bem.elements.scene_text import element_scene_text
+from bem.materials import contact_modulus
 from bem.notes import Level
 from bem.notes.checks import CAP_NOT_OF_SOFTER, CYLINDER_NARROW, HARDNESS_UNLIKELY, SLOPES_LARGE
 from bem.notes.elements import (
@@ -684,6 +685,36 @@ def test_wear_under_a_full_film_is_noted():
     assert said.endswith("by an estimate as a full journal bearing)")
     thin = load_element(worn | {"oil": WATER["oil"]})
     assert BUSH_WEARS_IN_FILM.code not in codes(answer_notes(thin, run_all(thin)))
+
+
+def test_a_film_between_bounds_carries_the_load_only_at_its_upper_one():
+    """0.0 % on asperities stood beside a lower bound at which they touch."""
+    table = {
+        "element": "plain-bush", "shaft_diameter": "25 mm", "clearance": "100 um", "length": "25 mm", "wall": "3 mm",
+        "radial_load": "1 kN", "speed": "60 rpm", "first": "steel-52100", "second": "pa66", "rms_roughness": "500 nm",
+        "specific_wear_rate": "1e-7 mm^3/(N*m)", "bulk_temperature": "40 degC",
+        "oil": {"grade": "ISO VG 46", "temperature": "40 degC"},
+    }  # fmt: skip
+    element = load_element(table)
+    (note,) = [one for one in answer_notes(element, run_all(element)) if one.code == BUSH_WEARS_IN_FILM.code]
+    assert note.values["reason"] == "bounds"
+    assert 0.5 < note.values["ratio"] < 2
+
+
+def test_running_in_of_a_walled_bush_has_the_film_of_its_answer():
+    """On the housing alone the contact was 2.4 in place of 11.5 mm wide, and the film a third of the answer's."""
+    element = load_element(WATER | {"second": "pa66", "wall": "3 mm"})
+    made = element.scene(element.worst(), "running-in")
+    scene = load_scene(made)
+    assert scene.upper.layer is None
+    one = run_all(element)[0]
+    film = element.worst().minimum_film(element.model.film_modulus, element.model.film_oil.build())
+    materials = scene.lower.build().surface_material, scene.upper.build().surface_material
+    assert contact_modulus(*materials) == pytest.approx(element.model.film_modulus, rel=1e-4)  # digits of the file
+    assert one.minimum_film == pytest.approx(film, rel=0.2, abs=0)
+    assert "too stiff" in made["description"]
+    thin = load_element(without(WATER, "wall", "housing") | {"second": "pa66"})
+    assert "too stiff" not in thin.scene(thin.worst(), "running-in")["description"]
 
 
 @pytest.mark.parametrize(

@@ -194,6 +194,7 @@ def test_what_is_not_known_is_said():
     said = dict(answer(cam, runs))
     count = sum(abs(one.slide_roll_ratio) > 2 for one in cam.found.contacts)
     assert f"; {count} of 9 positions are left out of the former: surfaces that run against" in said["friction power"]
+    assert "and the whole load where no film is solved" in said["friction power"]
     assert f"Not solved at {count} of 9 positions" in said["lambda ratio"]
     assert said["friction power"].endswith("; means over the whole turn, without contact on the base circle")
     power = friction_power(cam, runs)

@@ -105,6 +105,10 @@ def test_figures_over_other_speeds_have_no_change(pair, monkeypatch):
     assert found["count"].relative(1) == (0, 0)
     (said,) = unpaired_words(list(found.values()), ["a", "b", "c"])
     assert said == "b has other speeds than a: no change is given of figures listed over them."
+    harder = dataclasses.replace(runs[0], summary=runs[0].summary | {"hardness_Pa": [1e9, 2e9]})
+    others = figure_differences(harder, runs[2])
+    (said,) = unpaired_words(others, ["a", "b"])  # the speeds are the same ones
+    assert said.startswith("b has other values of hardness than a")
     monkeypatch.setattr("bem.results.open_run", lambda path: runs[path.name == "b"])
     told = CliRunner().invoke(build(), ["compare", str(pair[0].path), str(pair[1].path), "--no-figures"])
     assert "b has other speeds than a" in told.output
