@@ -733,10 +733,10 @@ def _moment(model: BearingModel, power: FrictionPower) -> str:
         return f"{said}, without cage, roller ends, churning and seals"
     said += (
         f": {moment(power.film - power.within_contacts)} of rolling, {moment(power.within_contacts)} of sliding within "
-        "the curved contacts (Heathcote)"
-    )
+        "the curved contacts (Heathcote"
+    ) + (" and spin)" if model.axial_load else ")")
     if model.axial_load:
-        return f"{said}; without spin of the balls, cage, churning and seals"
+        return f"{said}; without cage, churning and seals"
     usual = plain_digits(1e3 * usual_ball_moment(model), 3)
     return (
         f"{said}; without cage, churning and seals. The usual estimate of all, {USUAL_BALL_FRICTION:g} x load x bore / "

@@ -35,6 +35,7 @@ class ElementContact:
     inlet : how far before the axis the gap begins to be full of oil [m]; infinite where it is flooded.
     slices : loads per length of equal slices along a roller [N/m], whose highest is load over length; empty where the
         load is even by definition.
+    spin : angular speed of the ball against the other body about the normal of their contact [rad/s].
     path : name of the one of several paths that it is on, such as "outer ring"; empty where there is one.
     """
 
@@ -47,6 +48,7 @@ class ElementContact:
     length: float | None = None
     inlet: float = math.inf
     slices: tuple[float, ...] = ()
+    spin: float = 0.0
     path: str = ""
 
     @property

@@ -1,4 +1,4 @@
-"""Sliding of a ball within its curved contact with a groove (Heathcote slip), and the friction that it costs.
+"""Sliding of a ball within its curved contact with a groove (Heathcote slip and spin), and the friction that it costs.
 
 The contact of a ball in a groove is bent across the motion, so that its points lie at different distances from both
 axes of rotation. Ball and ring cannot roll on all of them: they roll on two lines, and slide forwards between and
@@ -12,19 +12,23 @@ backwards beside them.
 
        u (y^2 - y0^2) / (2 R_c R).
 
-3. The sheared oil film has the thickness in the middle of the contact and the temperature of the rolling film; its
-   stress follows the oil's own law over the pressure.
-4. A free ball takes no tangential force from a ring but the rolling resistance, which is small: the two lines y = +-y0
-   are where the stresses add up to none.
-5. The friction power is the integral of stress times difference of speeds.
+3. At a contact angle alpha ball and rings turn against each other about the normals of their contacts, too: on both
+   rings together by the speed of the ring times sin(alpha). A ball grips the ring on which its friction resists the
+   spin more, and spins on the other one alone (`spins_on_first`).
+4. The sheared oil film has the thickness in the middle of the contact and the temperature of the rolling film; its
+   stress follows the oil's own law over the pressure, and acts along the sliding.
+5. A free ball takes no tangential force from a ring but the rolling resistance, which is small: y0^2, of either sign,
+   is where the stresses along the motion add up to none. Without spin the ball rolls on the lines y = +-y0.
+6. The friction power is the integral of stress times sliding speed.
 
-The heat of this sliding is left out, as are the thicker film of the more lightly loaded sides, spin, and elastic shear
-of the bodies. Against films with their heat, each solved on a strip of the contact, the power of the template's ball is
-1.4 % too large.
+The heat of this sliding is left out, as are the thicker film of the more lightly loaded sides, gyroscopic moments, and
+elastic shear of the bodies. Against films with their heat, each solved on a strip of the contact, the power of the
+template's ball is 1.4 % too large.
 
 H. L. Heathcote, *Proc. Inst. Automobile Engineers* 15 (1921) 569; K. L. Johnson, *Contact Mechanics* (1985), 8.5, for
-dry friction; T. A. Harris, *Rolling Bearing Analysis*, for the curvature of the common surface. The originals of the
-first and the third were not read; the formulas are derived in this file. Verified in
+dry friction; T. A. Harris, *Rolling Bearing Analysis*, for the curvature of the common surface; A. B. Jones, *J. Basic
+Engineering* 81 (1959) 1, for the ring on which the ball spins. The originals but for the second were not read; the
+formulas are derived in this file. Verified in
 tests/elements/test_differential_sliding.py.
 """
 
@@ -47,8 +51,10 @@ if TYPE_CHECKING:
 
 CITES = ("heathcote1921",)
 """Source of the sliding within curved contacts, a key of `bem/references.bib`."""
+SPIN_CITES = ("jones1959",)
+"""Source of the ring on which balls spin."""
 STRIPS, POINTS = 200, 16
-"""Strips of half a contact, and points along half of each."""
+"""Strips of half a contact across the motion, and points along half of each."""
 
 Stress = Callable[[FloatArray, FloatArray], FloatArray]
 """Shear stress [Pa] at pressures [Pa] and speeds of sliding [m/s] of one shape, odd in the latter."""
@@ -59,7 +65,8 @@ class DifferentialSliding:
     """Sliding of a ball within one contact.
 
     power : of its friction [W]. speed : mean of the magnitude of the sliding speed, weighted by the pressure [m/s].
-    rolling_line : distance of the lines of pure rolling from the middle, over the semi-axis across.
+    rolling_line : distance y0 of the lines of pure rolling from the middle, over the semi-axis across; not a number
+        where there are none (y0^2 < 0).
     heat : highest over the strips along the motion, of friction per length across over the root of the strip's length
         [W/m^1.5], for its flash temperature.
     scatter : of the power to smaller and larger values from the oil's constants [W]; None but with "base_oil".
@@ -88,28 +95,55 @@ def ball_sliding(contact: ElementContact, modulus: float, stress: Stress) -> Dif
     along, across = hertz.semi_axes
     common = 1 / (1 / contact.radii[1] - 0.5 / contact.across)
     most = contact.mean_speed * across**2 / (2 * common * contact.radius)
-    eta = (np.arange(STRIPS) + 0.5) / STRIPS
+    edge = np.ones(1) if contact.spin == 0 else np.array([-1.0, 1.0])  # without spin both sides are alike
+    eta = np.concatenate([side * (np.arange(STRIPS) + 0.5) / STRIPS for side in edge])
     theta = 0.5 * math.pi * (np.arange(POINTS) + 0.5) / POINTS
     height = np.sqrt(1 - eta**2)[:, None]  # half-length of a strip over that of the middle one
     pressure = hertz.maximum_pressure * height * np.cos(theta)
-    area = 4 * along * across / STRIPS * height * np.cos(theta) * (0.5 * math.pi / POINTS)  # of all four quarters
+    width = 2 * across / STRIPS / len(edge)  # of a strip, with its like on the other side
+    area = 2 * along * width * height * np.cos(theta) * (0.5 * math.pi / POINTS)  # with its like before the middle
+    sideways = np.broadcast_to(contact.spin * along * height * np.sin(theta), pressure.shape)
 
-    def slips(line: float) -> FloatArray:
-        return np.broadcast_to(most * (eta**2 - line**2)[:, None], pressure.shape)
+    def slips(square: float) -> FloatArray:
+        slip = most * (eta**2 - square) + contact.spin * across * eta
+        return np.broadcast_to(slip[:, None], pressure.shape)
 
-    def force(line: float) -> float:
-        return float(np.sum(area * stress(pressure, slips(line))))
+    def stresses(slip: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the sliding speed and the stress along it."""
+        speed = np.hypot(slip, sideways)
+        return speed, stress(pressure, speed)
 
-    line = float(brentq(force, 0.0, 1.0, xtol=1e-12))
-    slip = slips(line)
-    weight, power = area * pressure, area * stress(pressure, slip) * slip
-    per_length = power.sum(axis=1) / (2 * across / STRIPS)  # of both sides
+    def force(square: float) -> float:
+        slip = slips(square)
+        speed, against = stresses(slip)
+        return float(np.sum(area * against * slip / np.maximum(speed, np.finfo(float).tiny)))
+
+    turning = abs(contact.spin) * across / most
+    square = float(brentq(force, -turning, 1.0 + turning, xtol=1e-12))
+    speed, against = stresses(slips(square))
+    weight, power = area * pressure, area * against * speed
+    per_length = power.sum(axis=1) / width
     return DifferentialSliding(
         float(power.sum()),
-        float(np.sum(weight * np.abs(slip)) / np.sum(weight)),
-        line,
+        float(np.sum(weight * speed) / np.sum(weight)),
+        math.sqrt(square) if square >= 0 else math.nan,
         float(np.max(per_length / np.sqrt(2 * along * height[:, 0]))),
     )
+
+
+def spins_on_first(contacts: tuple[ElementContact, ElementContact], modulus: float) -> bool:
+    """Return True if a ball spins on the first of its two contacts and grips the other one.
+
+    One friction coefficient resists the spin with the moment 3/8 mu Q b E, E the complete elliptic integral of the
+    second kind of the eccentricity, b the larger semi-axis.
+    """
+    from scipy.special import ellipe
+
+    moments = []
+    for one in contacts:
+        short, long = sorted(one.hertz(modulus).semi_axes)  # type: ignore[union-attr]
+        moments.append(one.load * long * ellipe(1 - (short / long) ** 2))
+    return bool(moments[0] <= moments[1])
 
 
 def sliding_in_film(

@@ -6,18 +6,18 @@ n = 1.5 are Hertz' for both rings, exact. Rollers are cut into slices, which car
 profile and rings (n = 10/9, `reference_life`), tilted rings or not. Both surfaces roll at omega d_m (1 - gamma^2) / 4
 over either ring, gamma = D / d_m.
 
-Balls carry an axial load at contact angles of their own (`ball_load`), and slide within their curved contacts
-(`differential_sliding`). Spin of balls is left out, as are edge pressure and skew of rollers. A contact of a roller has
-the load per length of its most loaded slice, and its friction is that of all slices. The line film of a scene takes the
-middle of a ball's ellipse, and no oil that leaves sideways. The centrifugal force is in the loads of the outer ring,
-not in how the load is shared.
+Balls carry an axial load at contact angles of their own (`ball_load`); they slide within their curved contacts, and
+spin under an axial load (`differential_sliding`). Edge pressure and skew of rollers are left out. A contact of a roller
+has the load per length of its most loaded slice, and its friction is that of all slices. The line film of a scene takes
+the middle of a ball's ellipse, and no oil that leaves sideways. The centrifugal force is in the loads of the outer
+ring, not in how the load is shared.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Annotated, Literal, Self
 
@@ -26,6 +26,7 @@ from pydantic import Field, model_validator
 
 from bem.elements.ball_load import BallLoads, share_with_axial_load
 from bem.elements.contact import EVEN, ElementContact
+from bem.elements.differential_sliding import spins_on_first
 from bem.elements.model import Contacts, ElementModel
 from bem.elements.rating_life import BearingGeometry, Cleanliness
 from bem.elements.reference_life import SlicedRollers, slice_rollers
@@ -209,28 +210,43 @@ class BearingModel(ElementModel):
         profiled = self.profile == "logarithmic"
         return slice_rollers(self.geometry, load, clearance=self.clearance, tilt=self.tilt, profiled=profiled)
 
+    def _spinning(
+        self, inner: ElementContact, outer: ElementContact, contact_angle: float
+    ) -> tuple[ElementContact, ElementContact]:
+        """Return both contacts of an element, of a ball at a contact angle [rad] with its spin on one of them."""
+        spin = self.speed * math.sin(contact_angle)
+        if spin == 0:
+            return inner, outer
+        modulus = contact_modulus(self.first.build(), self.second.build())
+        if spins_on_first((inner, outer), modulus):
+            return replace(inner, spin=spin), outer
+        return inner, replace(outer, spin=spin)
+
     def contacts(self) -> Contacts:
         """Return all loaded contacts, on inner and outer ring, by their angle from the load."""
         angles, shared = self._angles, self.shared
         leaning = np.zeros(self.count) if self.ball_loads is None else self.ball_loads.contact_angles
         uneven = _unevenness(self.slices)
         pressed_out = _centrifugal(self)
-        found = []
+        found: list[ElementContact] = []
         for number, (angle, load) in enumerate(zip(angles, shared, strict=True)):
             turned = math.degrees(angle if angle <= math.pi else angle - 2 * math.pi)
             contact_angle = float(leaning[number])
             gamma = self.diameter / self.pitch * math.cos(contact_angle)
             rolling = 0.25 * self.speed * self.pitch * (1 - gamma**2)
+            if load == 0:
+                continue
+            both = []
             for race in _races(self, contact_angle):
                 total = load * uneven.get(number, 1.0) + (pressed_out if race.name == "outer ring" else 0.0)
-                if load > 0:
-                    found.append(
-                        ElementContact(
-                            f"{race.name}, {round(turned, 1):g} deg", math.radians(turned), total,
-                            (race.radius, 0.5 * self.diameter), (rolling, rolling), race.across, self.length,
-                            slices=() if self.slices is None else self.slices.along(number, total), path=race.name,
-                        )
-                    )  # fmt: skip
+                both.append(
+                    ElementContact(
+                        f"{race.name}, {round(turned, 1):g} deg", math.radians(turned), total,
+                        (race.radius, 0.5 * self.diameter), (rolling, rolling), race.across, self.length,
+                        slices=() if self.slices is None else self.slices.along(number, total), path=race.name,
+                    )
+                )  # fmt: skip
+            found += self._spinning(both[0], both[1], contact_angle)
         return Contacts(
             tuple(found), "angle", "rad", geometry=_load_sharing(self, shared, pressed_out), at_once=float(len(found))
         )
@@ -328,7 +344,7 @@ def _load_sharing(model: BearingModel, shared: Sequence[float], pressed_out: flo
         least, most = (math.degrees(float(one)) for one in (carrying.min(), carrying.max()))
         said.append(
             f"Axial load {si(model.axial_load, 'N', 4)}: contact angles {least:.3g} to {most:.3g} deg, the inner ring "
-            f"moves {1e6 * model.ball_loads.axial_shift:.3g} um along the axis; spin of the balls is left out."
+            f"moves {1e6 * model.ball_loads.axial_shift:.3g} um along the axis."
         )
     if model.slices is not None:
         critical = int(model.slices.loads.max(axis=1).argmax())

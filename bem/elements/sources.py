@@ -70,6 +70,8 @@ def sources_of_element(element: Element) -> dict[str, list[str]]:
         found = found | {"palmgren1959": "stiffness of line contacts"}
     elif isinstance(element.model, BearingModel) and element.model.film_oil is not None:
         found = found | dict.fromkeys(differential_sliding.CITES, "sliding of balls within their contacts")
+        if element.model.axial_load:
+            found = found | dict.fromkeys(differential_sliding.SPIN_CITES, "spin of balls")
     if element.model.specific_wear_rate is not None:
         found = found | dict.fromkeys(element_wear.CITES, "wear")
     return {key: [method] for key, method in found.items()}

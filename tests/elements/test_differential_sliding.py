@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.special import ellipe
 
 from bem.accuracy import traction_figures
 from bem.elements.answer import answer, friction_power
-from bem.elements.differential_sliding import ball_sliding, film_stress, sliding_in_film
+from bem.elements.differential_sliding import ball_sliding, film_stress, sliding_in_film, spins_on_first
 from bem.elements.element import load_element
 from bem.elements.rolling_bearing import usual_ball_moment
 from bem.elements.running import run_all, run_contact
@@ -85,6 +86,51 @@ def test_the_speed_of_sliding_is_that_of_turning_rigid_bodies(bearing, ring):
     turning = contact.mean_speed / race, contact.mean_speed / ball  # equal speeds in the middle
     slip = turning[0] * (race + side * rise) - turning[1] * (ball - rise)
     assert slip == pytest.approx(most, rel=1e-9)
+
+
+@pytest.mark.parametrize("ring", [INNER, OUTER])
+def test_a_ball_that_only_spins_has_the_closed_moment(bearing, ring):
+    """3/8 mu Q b E(e) by Coulomb's friction, at a spin beside which the curvature counts little."""
+    contact = bearing.found.contacts[ring]
+    along, across, _, most = shape(bearing, contact)
+    spin = 300 * most / across
+    found = ball_sliding(
+        replace(contact, spin=spin), bearing.modulus, lambda pressure, sliding: 0.05 * pressure * np.sign(sliding)
+    )
+    moment = 3 / 8 * 0.05 * contact.load * across * ellipe(1 - (along / across) ** 2)
+    assert found.power == pytest.approx(moment * spin, rel=2e-3)
+    still = ball_sliding(replace(contact, spin=1e-9), bearing.modulus, lambda pressure, sliding: 1e5 * sliding)
+    assert still.power == pytest.approx(
+        ball_sliding(contact, bearing.modulus, lambda pressure, sliding: 1e5 * sliding).power, rel=1e-9
+    )
+
+
+def test_spin_is_that_of_turning_rigid_bodies():
+    """Rings and ball seen from the cage; the ball turns about any axis in the plane of its contacts."""
+    bearing = load_element(DEEP_GROOVE | {"axial_load": "1.5 kN"})
+    contacts = [one for one in bearing.found.contacts if one.spin]
+    shared = bearing.model.ball_loads
+    angles = shared.contact_angles[shared.loads > 0]
+    assert len(bearing.found.contacts) == 2 * len(angles) == 2 * len({one.place for one in contacts})
+    for contact, angle in zip(contacts, angles, strict=True):
+        normal = np.array([math.cos(angle), math.sin(angle)])  # radial, axial
+        cage = 0.4 * bearing.model.speed
+        rings = {"inner": np.array([0.0, bearing.model.speed - cage]), "outer": np.array([0.0, -cage])}
+        for tilt in (0.0, 0.1, angle):
+            ball = -900.0 * np.array([-math.sin(tilt), math.cos(tilt)])
+            spins = [(ball - ring) @ normal for ring in rings.values()]
+            assert abs(spins[0] - spins[1]) == pytest.approx(abs(contact.spin), rel=1e-9)
+    power = friction_power(bearing, run_all(bearing, most=2))
+    plain = load_element(DEEP_GROOVE | {"axial_load": "1.5 kN"})
+    without = [replace(one, spin=0.0) for one in plain.found.contacts]
+    rolling = sum(run_contact(plain, one).sliding.power for one in without)
+    assert power.within_contacts > 1.02 * rolling
+
+
+def test_a_ball_grips_the_ring_that_resists_its_spin_more(bearing):
+    inner, outer = bearing.found.contacts[:2]
+    assert spins_on_first((replace(inner, load=0.5 * inner.load), outer), bearing.modulus)
+    assert not spins_on_first((replace(inner, load=2 * inner.load), outer), bearing.modulus)
 
 
 def test_power_agrees_with_films_solved_on_strips(bearing):
