@@ -65,6 +65,27 @@ from bem.scenes.units import turns_without_angle
 from bem.scenes.validate import nearest, show, validate
 from bem.scenes.values import parse_toml
 
+OTHER_BEARINGS = (
+    "angular-contact-bearing",
+    "angular-contact-ball-bearing",
+    "tapered-roller-bearing",
+    "taper-roller-bearing",
+    "spherical-roller-bearing",
+    "self-aligning-ball-bearing",
+    "thrust-bearing",
+    "thrust-ball-bearing",
+)
+"""Names of rolling bearings that are none of the elements."""
+RADIAL_BEARINGS = (
+    "ball-bearing",
+    "deep-groove-ball-bearing",
+    "deep-groove-bearing",
+    "roller-bearing",
+    "cylindrical-roller-bearing",
+    "needle-bearing",
+)
+"""Names of rolling bearings that are elements."""
+
 MODELS: dict[str, type[ElementModel]] = {
     "cam-follower": CamModel,
     "gear-pair": GearModel,
@@ -90,7 +111,12 @@ _OTHER_GEARS = (
     "Only external spur and helical gears are elements. Give load, radius and speeds along the path of contact to "
     "kind traction as [along], from a .csv file."
 )
+_OTHER_BEARINGS = (
+    "Only radial deep groove ball and cylindrical roller bearings are elements (rolling-bearing). Give load, radii and "
+    "speeds of one contact to kind traction (rollers) or point-film (balls), with roughness to kind friction."
+)
 NOT_MODELLED = {
+    **dict.fromkeys(OTHER_BEARINGS, _OTHER_BEARINGS),
     **dict.fromkeys(("journal-bearing", "hydrodynamic-bearing"), _JOURNAL),
     **dict.fromkeys(("seal", "seals", "lip-seal"), _SEAL),
     **dict.fromkeys(("worm-gear", "bevel-gear", "hypoid-gear", "internal-gear", "planetary-gear"), _OTHER_GEARS),
@@ -105,8 +131,8 @@ TITLES = {
     "plain-bush": "shaft in a bush, dry or lubricated: contact angle, pressure, p v, film, temperature, wear life",
 }
 """A line about each element."""
-_ALIASES = {
-    "bearing": "rolling-bearing",
+ALIASES = {
+    **dict.fromkeys(("bearing", *RADIAL_BEARINGS), "rolling-bearing"),
     "gear": "gear-pair",
     "gears": "gear-pair",
     "helical-gear": "gear-pair",
@@ -118,6 +144,7 @@ _ALIASES = {
     **dict.fromkeys(("polymer-bush", "polymer-bushing", "polymer-bearing"), "plain-bush"),
     **dict.fromkeys(("plain-bearing", "sleeve-bearing", "sliding-bearing"), "plain-bush"),
 }
+"""Words for elements besides their names."""
 AT_MARK = 1e-9
 """Distance from a marked place up to which a contact is there [m]."""
 _ROUGHNESS = ("ra", "rq", "sq", "sa", "rz")
@@ -767,7 +794,7 @@ def element_template(name: str) -> str:
     InputError : none of that name, and why.
     """
     word = name.strip().lower().replace("_", "-").replace(" ", "-")
-    word = _ALIASES.get(word, word)
+    word = ALIASES.get(word, word)
     if word in NOT_MODELLED:
         raise InputError(NOT_MODELLED[word])
     if word not in MODELS:

@@ -8,9 +8,10 @@ import pytest
 from scipy.integrate import quad
 
 from bem import CATALOGUE, InputError, contact_modulus
+from bem.cli.new import element_text
 from bem.elements.answer import answer_notes, balance_heat, friction_power
 from bem.elements.bearing_life import bearing_life, life_notes
-from bem.elements.element import element_template, load_element
+from bem.elements.element import ALIASES, MODELS, NOT_MODELLED, element_template, load_element
 from bem.elements.rolling_bearing import BearingModel, _centrifugal, load_integral, share
 from bem.elements.running import Running, run_all
 from bem.errors import Status
@@ -284,3 +285,19 @@ def test_a_heat_balance_of_balls_says_what_friction_it_lacks():
     assert note.values["celsius"] == pytest.approx(25 + (element.model.bulk_temperature - 298.15) * usual / films)
     given = load_element(BALLS | {"oil": oil, "bulk_temperature": "70 degC"})
     assert not any(one.code == "balance-without-sliding" for one in answer_notes(given, run_all(given, most=1)))
+
+
+def test_every_word_for_an_element_is_known_to_bem_new():
+    """The command knows them without loading elements."""
+    words = {*ALIASES, *NOT_MODELLED, *MODELS}
+    assert {word for word in words if not _of_new(word)} == set()
+    assert 'rolling = "ball"' in element_text("deep groove ball bearing")
+    with pytest.raises(InputError, match="Only radial deep groove ball and cylindrical roller bearings"):
+        element_text("tapered roller bearing")
+
+
+def _of_new(word):
+    try:
+        return bool(element_text(word))
+    except InputError:
+        return True
