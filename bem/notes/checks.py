@@ -370,7 +370,7 @@ PARTICLES_OF_MESH = define(
     "Sizes and numbers of particles follow the mesh.",
     reasons={
         "criterion": Reason(
-            "The length of wear.criterion {law}, {length:si m}, is {cells:.2g} cells{along}.",
+            "The length of wear.{key} {law}, {length:si m}, is {cells:.2g} cells{along}.",
             "Take cells of {cell:si m} or less{along}{longer}.",
         ),
         "depths": Reason(
@@ -381,8 +381,8 @@ PARTICLES_OF_MESH = define(
             "Take a third of the thickness.",
         ),
         "mean": Reason(
-            "The mean by number is smaller than two cells of {cell:si m} in {few} of {all} runs (radius {radius:si m}):"
-            " most are one cell.",
+            "The mean by number is smaller than two cells of {cell:si m} in {few} of {all} runs"
+            " ({least}radius {radius:si m}): most are one cell.",
             "Take a finer grid, or the mean by volume.",
         ),
         "one-cell": Reason(
@@ -547,16 +547,16 @@ LESS_THAN_A_PARTICLE = define(
     "less-than-a-particle",
     CAUTION,
     "The run wears less than one particle.",
-    "All cycles together shed {number:.2g} particles of one body{of}: an expected number, worn volume over mean volume"
-    " of a particle, and no count. Sizes are those of regions that would come off.",
+    "All cycles together shed {most}{number:.2g} particles of one body{of}: an expected number, worn volume over mean"
+    " volume of a particle, and no count. Sizes are those of regions that would come off.",
     "Read the particles per distance and per worn volume. A count of {wanted} would take about {cycles} cycles, about"
-    " {time}, at the rate of the last {window} cycles, {rate:.2g} a cycle.",
+    " {time}, at the rate of {window} cycles, {rate:.2g} a cycle.",
 )
 WEAR_OUTSIDE_REGION = define(
     "wear-outside-region",
     INFO,
     "Wear reaches beyond the contact region of Sq and worn depth.",
-    "{share:%} of the worn volume lies outside it{of}. The region is {region}; rough summits touch beside it.",
+    "{most}{share:%} of the worn volume lies outside it{of}. The region is {region}; rough summits touch beside it.",
     "Read the worn volume and the map of the worn surface for all of it.",
 )
 CHANGE_WITHIN_ERROR = define(

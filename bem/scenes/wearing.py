@@ -20,7 +20,7 @@ from bem.errors import ConvergenceError, InputError
 from bem.grid import FloatArray, Grid
 from bem.notes.checks import PARTICLES_CUT
 from bem.packing import packed, unpacked
-from bem.scenes import plans
+from bem.scenes import pieces, plans
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.context import Context, PlainContext, tell
 from bem.scenes.keys import key
@@ -335,26 +335,20 @@ def worn_region(scene: Any, strip: FloatArray) -> tuple[int, FloatArray]:
     return worn, track_of(strip) if wears_on_a_track(scene) else strip
 
 
-def particle_rates(scene: Any, result: RunningIn, grid: Grid, number: FloatArray) -> dict[str, float | None]:
+def particle_rates(scene: Any, result: RunningIn, grid: Grid) -> dict[str, float | None]:
     """Return particles per sliding distance [1/m] and per volume worn from their body [1/m^3] in the settled cycles.
 
-    number : particles of each cycle. None without sliding, without particles, and of a law that knows none.
+    None without sliding, without particles, and of a law that knows none.
     """
     if scene.wear.finds_particles.wears_by_pressure:
         return {"particles_per_distance": None, "particles_per_volume": None}
     last = scene.cycles.settled
     distance = scene.wear.criterion.distance_per_cycle(abs(scene.wear.shift) * grid.spacing[0])
-    settled, count = result.cycles[-last:], float(number[-last:].sum())
-    if scene.wear.particle_criterion is None:
-        particles = scene.sizes.particles(result)
-        volume = float(particles["volume"][particles["cycle"] >= settled["cycle"][0]].sum())
-    else:
-        volume = float(
-            _share_worn(scene, result) * (settled["volume"] - settled["cut_volume"])[number[-last:] > 0].sum()
-        )
+    settled, count = result.cycles[-last:], particle_number(scene, result, result.cycles[-last:])
+    volumes = _volumes(scene, result, settled)
     return {
-        "particles_per_distance": count / (len(settled) * distance) if distance > 0 else None,
-        "particles_per_volume": count / volume if count > 0 and volume > 0 else None,
+        "particles_per_distance": count / (len(settled) * distance) if count is not None and distance > 0 else None,
+        "particles_per_volume": volumes.size / float(volumes.sum()) if volumes.size else None,
     }
 
 
@@ -447,18 +441,50 @@ _MOST_CUT = 0.02
 def sizes_over_cycles(scene: Any, result: RunningIn) -> tuple[FloatArray, FloatArray]:
     """Return the volume-mean radius [m] (nan without particles) and the number of reported particles of each cycle.
 
-    Beside a wear law, the number is the volume that the law takes from the body, without cuts of third bodies, over the
-    mean volume of its particles in the cycle.
+    Beside a wear law most cycles may have no particle to know a size from. The number of a cycle is then the volume
+    that the law takes from the body in it over the mean volume of the particles of its stretch of cycles. Stretches are
+    `cycles.settled` long, counted back from the last cycle, the first may be shorter: the mean over the last stretch is
+    `particles_per_cycle`. nan where something is worn in a stretch in which no particle is found.
     """
     from bem.wear.outcome import sizes_over_cycles
 
-    cycles, particles = result.cycles, scene.sizes.particles(result)
-    radius, number = sizes_over_cycles(cycles["cycle"], particles)
+    cycles, settled = result.cycles, scene.cycles.settled
+    radius, number = sizes_over_cycles(cycles["cycle"], scene.sizes.particles(result))
     if scene.wear.particle_criterion is None:
         return radius, number
-    total = np.bincount(particles["cycle"], particles["volume"], minlength=int(cycles["cycle"].max()) + 1)
-    total, worn = total[cycles["cycle"]], _share_worn(scene, result) * (cycles["volume"] - cycles["cut_volume"])
-    return radius, np.divide(number * worn, total, out=np.zeros(len(cycles)), where=total > 0)
+    for end in range(len(cycles), 0, -settled):
+        stretch = slice(max(end - settled, 0), end)
+        volumes, worn = _volumes(scene, result, cycles[stretch]), _worn_by_law(scene, result, cycles[stretch])
+        with np.errstate(invalid="ignore"):
+            number[stretch] = np.where(worn > 0, worn / (volumes.mean() if volumes.size else np.nan), 0.0)
+    return radius, number
+
+
+def particle_number(scene: Any, result: RunningIn, cycles: NDArray[np.void]) -> float | None:
+    """Return the number of reported particles of some successive cycles, rows of `CYCLE_FIELDS`.
+
+    Beside a wear law, it is the volume that the law takes from the body in all of these cycles, without cuts of third
+    bodies, over the mean volume of all its particles in them. A mean of the ratios of single cycles would count a cycle
+    in which no particle is found as one without wear. None where something is worn and no particle is found.
+    """
+    volumes = _volumes(scene, result, cycles)
+    if scene.wear.particle_criterion is None:
+        return float(volumes.size)
+    worn = float(_worn_by_law(scene, result, cycles).sum())
+    return worn / float(volumes.mean()) if volumes.size else None if worn > 0 else 0.0
+
+
+def _volumes(scene: Any, result: RunningIn, cycles: NDArray[np.void]) -> FloatArray:
+    """Return the volumes [m^3] of the reported particles of some cycles."""
+    particles = scene.sizes.particles(result)
+    volumes: FloatArray = particles["volume"][np.isin(particles["cycle"], cycles["cycle"])]
+    return volumes
+
+
+def _worn_by_law(scene: Any, result: RunningIn, cycles: NDArray[np.void]) -> FloatArray:
+    """Return the volume [m^3] that a wear law takes from the reported body in each cycle, without cuts."""
+    worn: FloatArray = _share_worn(scene, result) * (cycles["volume"] - cycles["cut_volume"])
+    return worn
 
 
 def _share_worn(scene: Any, result: RunningIn) -> float:
@@ -469,6 +495,12 @@ def _share_worn(scene: Any, result: RunningIn) -> float:
     friction = float(result.cycles["friction"][-1])
     rates = [law.rate(bodies[0], friction), law.rate(bodies[1], friction) * law.upper_over_lower]
     return rates[scene.sizes.body(result.wearing)] / (sum(rates) or 1.0)
+
+
+STRETCHES = (
+    "; beside a wear law worn volume over mean particle volume of cycles.settled cycles, nan where no particle is found"
+)
+"""What the curve of the number of particles is beside a wear law, behind its description."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -496,6 +528,16 @@ class WornRecord(RubbedRecord, ThirdBodyRecord):
             optional=True,
             headline=True,
             unjudged=True,  # one cell's, told to compare with the error of the step
+        ),
+    ] = None
+    particles_all_cycles: Annotated[
+        float | None,
+        Figure(
+            "",
+            "expected number of particles of all cycles, of one body, beside a wear law: worn volume over mean volume "
+            "of the particles found",
+            optional=True,
+            no_bar=pieces.FOLLOWS_CELL,
         ),
     ] = None
     cycle: Annotated[IntArray, Series(("cycle",), "1", "cycle")]
@@ -538,11 +580,12 @@ class WornSurface:
         before, after = initial[result.wearing[0]], result.worn_heights()
         worn = strip_wear(before, after, track_of(strip) if result.wearing[0] == result.moving else strip)
         before, after = before[: grid.shape[0]], after[: grid.shape[0]]
+        finds, beside = scene.wear.finds_particles.needs_strength, scene.wear.particle_criterion is not None
+        number = particle_number(scene, result, cycles[-last:]) if finds else None
         figures = {
             "cycle": np.arange(1, len(cycles) + 1),
-            "particles_per_cycle": float(sizes_over_cycles(scene, result)[1][-len(settled) :].mean())
-            if scene.wear.finds_particles.needs_strength
-            else None,
+            "particles_per_cycle": None if number is None else number / len(settled),
+            "particles_all_cycles": particle_number(scene, result, cycles) if beside else None,
             "convolutions_per_cycle": float(cycles["convolutions"].mean()),
             "truncated_particles": int(late["truncated"].sum()),
             "step_error": result.step_error,

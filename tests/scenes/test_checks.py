@@ -595,7 +595,12 @@ def swinging_outcome(amplitude, drift=0.0, count=200):
 def particles_outcome(number):
     """Two loops of four cycles; the second sheds a particle in each."""
     over = Variable(("speed", "cycle"), np.array([[number] * 4, [1.0] * 4]), "1", "particles")
-    return Outcome({}, {"particles_over_cycles": over})
+    return Outcome({}, {"particles_over_cycles": over, "particles_all_cycles": all_particles([4 * number, 4.0])})
+
+
+def all_particles(numbers):
+    """The expected number of particles of all cycles of some loops."""
+    return Variable(("speed",), np.array(numbers), "1", "particles")
 
 
 def least_area_outcome(area):
@@ -916,12 +921,74 @@ def test_a_swing_within_the_error_bars_is_not_told():
 def test_cycles_for_a_count_of_particles_follow_the_rate_in_the_table():
     """The particles of all cycles fall off after the first; the rate of the last ones is what the table has."""
     over = Variable(("cycle",), np.array([0.3, 0.1, 0.1, 0.1]), "1", "particles")
-    outcome = Outcome({"particles_per_cycle": [0.1]}, {"particles_over_cycles": over})
+    total = all_particles([0.6])
+    outcome = Outcome({"particles_per_cycle": [0.1]}, {"particles_over_cycles": over, "particles_all_cycles": total})
     check = OUTCOME_CHECKS["less_than_one_particle"]
     (told,) = check(facts_of("running-in-stribeck", "cycles.count=4", "cycles.settled=2", "cycles.averaged=2"), outcome)
     # 43 000 cycles were advised without a word that they take nine hours
     assert re.search(r"count of 20 would take about 200 cycles, about [\d.]+ (s|min|h), at the rate", told)
     assert told.endswith("of the last 2 cycles, 0.1 a cycle.")
+
+
+@pytest.mark.internal
+def test_cycles_for_a_count_of_particles_are_those_of_all_where_the_last_ones_know_no_size():
+    over = Variable(("cycle",), np.array([0.3, 0.3, np.nan, np.nan]), "1", "particles")
+    outcome = Outcome({}, {"particles_over_cycles": over, "particles_all_cycles": all_particles([0.8])})
+    check = OUTCOME_CHECKS["less_than_one_particle"]
+    (told,) = check(facts_of("running-in-stribeck", "cycles.count=4", "cycles.settled=2", "cycles.averaged=2"), outcome)
+    assert "shed 0.8 particles" in told
+    assert told.endswith("at the rate of all cycles, 0.2 a cycle.")
+
+
+@pytest.mark.internal
+def test_cycles_for_a_count_of_particles_have_a_time_where_there_are_several_loads():
+    """The plan of one case refused a scene of several, and the note was lost."""
+    over = Variable(("load", "cycle"), np.full((2, 4), 0.1), "1", "particles")
+    variables = {"particles": over, "particles_all_cycles": all_particles([0.4, 0.4])}
+    check, settings = OUTCOME_CHECKS["less_than_one_particle"], ("cycles.count=4", "cycles.settled=2", *WORN)
+    seconds = []
+    for loads in ('["5 N"]', '["5 N", "5 N"]'):
+        facts = facts_of("wear-steel-steel", f"cylinder.loads={loads}", *settings)
+        (told,) = check(facts, Outcome({}, variables))
+        (time,) = re.findall(r"200 cycles, about (.*?), at the rate", told)
+        seconds.append(time)
+    assert seconds[0] != seconds[1]
+
+
+@pytest.mark.internal
+def test_values_that_differ_between_loops_are_told_as_those_of_the_worst():
+    """ "Friction by 20 % in 2 of 2 loops" was said of 20.2 and 7.0 %."""
+    facts, smooth = facts_of("running-in-stribeck"), facts_of(SMOOTH_COUNTERFACE)
+
+    def said(name, summary, variables=None, of=facts):
+        return str(next(iter(OUTCOME_CHECKS[name](of, Outcome(summary, variables or {})))))
+
+    outside = "wear_outside_the_contact_region"
+    assert "Up to 20 % of the worn volume lies outside it in 2 of 2" in said(
+        outside, {"volume_outside_region": [0.17, 0.2]}
+    )
+    assert "Up to" not in said(outside, {"volume_outside_region": [0.2, 0.2]})
+    change = {"friction_initial": [0.11] * 2, "friction_run_in": [0.109] * 2, "friction_run_in_error": [0.002] * 2}
+    assert "its error of 0.002 in 2 of 2 loops." in said("running_in_within_its_error", change)
+    change["friction_run_in_error"] = [0.002, 0.004]
+    assert "0.004 in 2 of 2 loops (numbers of the worst)." in said("running_in_within_its_error", change)
+    for second, words in (((0.13, 0.12, 0.11, 0.1), "friction by 16 % in"), ((0.13, 0.13, 0.12, 0.12), "by up to 16")):
+        values = np.array([(0.13, 0.12, 0.11, 0.1), second])
+        series = {"friction_over_cycles": Variable(("speed", "cycle"), values, "1", "friction")}
+        assert words in said("drifting_at_the_last_cycle", {}, series, smooth)
+    series = particles_outcome(0.2).variables | {"particles_all_cycles": all_particles([0.8, 0.4])}
+    assert "shed up to 0.8 particles of one body in 2 of 2 loops" in said("less_than_one_particle", {}, series)
+
+
+@pytest.mark.internal
+def test_the_length_of_a_particle_criterion_is_told_by_its_key():
+    """The note named wear.criterion averaged_von_mises where wear.criterion was archard."""
+    for changes, key in ((WORN, "particle_criterion"), ((), "criterion")):
+        law = f'wear.{key}={{kind="averaged_von_mises", averaging_length="100 nm"}}'
+        told = next(
+            iter(SCENE_CHECKS["few_cells_per_length_of_the_criterion"](facts_of("wear-steel-steel", *changes, law)))
+        )
+        assert f"The length of wear.{key} averaged_von_mises, 100 nm, is" in told
 
 
 @pytest.mark.internal
@@ -1035,6 +1102,10 @@ def test_a_law_that_finds_no_particles_beside_a_worn_volume_is_named_by_its_key(
     assert "wear.particle_criterion averaged_von_mises found no particle" in told
     assert "worn volume holds" in told.line
     assert "wear.criterion, archard" in told
+    # a number that is not known, of loops that were solved
+    for cut, found in (([0] * 3, 3), ([None] * 3, 0)):
+        none = wear_outcome([], particles_per_cycle=[None] * 3, truncated_particles=cut)
+        assert len(list(OUTCOME_CHECKS["nothing_comes_off"](facts, none))) == found
 
 
 def test_running_in_tells_too_where_nothing_comes_off():

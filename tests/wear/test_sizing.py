@@ -11,6 +11,7 @@ from bem.campaigns import campaign_of, compute
 from bem.errors import InputError
 from bem.grid import Grid
 from bem.runs import plan_scene
+from bem.scenes import wearing
 from bem.scenes.checks import examine, outcome_warnings
 from bem.scenes.checks.cycles import _cells_for_particles
 from bem.wear.criterion.averaged import AveragedVonMises
@@ -46,9 +47,59 @@ def test_the_number_of_particles_is_the_volume_of_the_law_over_their_mean_volume
     _, found = run(tmp_path, WEAR + ARCHARD % "1 mm" + SIZES)
     volume, cycle = (found.variables[f"particle_{name}"].values.ravel() for name in ("volume", "cycle"))
     number, worn = (found.variables[name].values.ravel() for name in ("particles", "volume"))
-    for index in range(12):
-        assert number[index] == pytest.approx(worn[index] / volume[cycle == index + 1].mean(), rel=1e-12)
-    assert found.summary["particles_per_cycle"] == pytest.approx(number[-4:].mean())
+    for first in (0, 4, 8):  # three stretches of cycles.settled
+        mean = volume[(cycle > first) & (cycle <= first + 4)].mean()
+        assert number[first : first + 4] == pytest.approx(worn[first : first + 4] / mean, rel=1e-12)
+    assert found.summary["particles_per_cycle"] == pytest.approx(worn[-4:].mean() / volume[cycle > 8].mean(), rel=1e-12)
+    assert found.summary["particles_all_cycles"] == pytest.approx(worn.sum() / volume.mean(), rel=1e-12)
+
+
+def loop_with_few_particles(volumes, cycles, settled=3):
+    """A scene and its loop of seven cycles, in each of which Archard's law wears 1 um^3 and third bodies cut 2 um^3."""
+    rows = np.zeros(7, dtype=[("cycle", int), ("volume", float), ("cut_volume", float)])
+    rows["cycle"], rows["volume"], rows["cut_volume"] = np.arange(1, 8), 3e-18, 2e-18
+    particles = np.zeros(len(volumes), dtype=[("cycle", int), ("volume", float)])
+    particles["cycle"], particles["volume"] = cycles, volumes
+    law = SimpleNamespace(wears_by_pressure=False)
+    wear = SimpleNamespace(
+        particle_criterion="von_mises",
+        finds_particles=law,
+        criterion=SimpleNamespace(distance_per_cycle=lambda shift: 0.5),
+        shift=1,
+    )
+    sizes = SimpleNamespace(particles=lambda result: particles)
+    scene: Any = SimpleNamespace(wear=wear, sizes=sizes, cycles=SimpleNamespace(settled=settled))
+    result: Any = SimpleNamespace(cycles=rows, wearing=(0,))
+    return scene, result
+
+
+@pytest.mark.internal
+def test_cycles_without_a_particle_wear_all_the_same():
+    """Each counted as a cycle without wear: 0.068 particles of 2.36 um^3 a cycle stood beside 0.064 um^3 worn."""
+    scene, result = loop_with_few_particles([2e-18, 4e-18, 1e-18, 1e-18, 4e-18], [2, 4, 6, 6, 7])
+    number = wearing.sizes_over_cycles(scene, result)[1]
+    # stretches of cycles 1, 2 to 4 and 5 to 7, with mean volumes of 3 and 2 um^3 in the last two
+    assert number[1:] == pytest.approx([1 / 3] * 3 + [1 / 2] * 3, rel=1e-12)
+    assert np.isnan(number[0])
+    assert wearing.particle_number(scene, result, result.cycles[-3:]) == pytest.approx(3 / 2, rel=1e-12)
+    assert wearing.particle_number(scene, result, result.cycles) == pytest.approx(7 / (12 / 5), rel=1e-12)
+    rates = wearing.particle_rates(scene, result, Grid((4, 4), (1e-6, 1e-6)))
+    assert rates["particles_per_distance"] == pytest.approx(1 / 2 / 0.5, rel=1e-12)
+    assert rates["particles_per_volume"] == pytest.approx(1 / 2e-18, rel=1e-12)
+
+
+@pytest.mark.internal
+def test_wear_without_any_particle_has_no_number_of_them():
+    scene, result = loop_with_few_particles([2e-18], [1])
+    assert wearing.particle_number(scene, result, result.cycles[-3:]) is None
+    assert wearing.particle_rates(scene, result, Grid((4, 4), (1e-6, 1e-6))) == {
+        "particles_per_distance": None,
+        "particles_per_volume": None,
+    }
+    assert np.isnan(wearing.sizes_over_cycles(scene, result)[1][1:]).all()
+    result.cycles["volume"] = 2e-18  # cuts alone
+    assert wearing.particle_number(scene, result, result.cycles[-3:]) == 0
+    assert (wearing.sizes_over_cycles(scene, result)[1] == 0).all()
 
 
 def test_cuts_of_third_bodies_come_off_without_particles_of_the_criterion(tmp_path):

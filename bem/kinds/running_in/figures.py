@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from bem.grid import FloatArray
 from bem.plots.cases import along, case_shown, grouped, many_speeds, redoes
 from bem.plots.figures import FigureKind
 from bem.plots.labels import label, prefix
@@ -94,10 +95,18 @@ def _show_range(axes: Axes) -> None:
     axes.set_ylim(low - margin, high + margin)
 
 
+def _mean_of_known(curves: FloatArray) -> FloatArray:
+    """Return the mean over curves (repetitions, cycles) without nan; nan where no curve is known."""
+    known = np.isfinite(curves)
+    with np.errstate(invalid="ignore"):
+        mean: FloatArray = np.where(known, curves, 0.0).sum(axis=0) / known.sum(axis=0)
+    return mean
+
+
 def _wear_over_cycles(run: Any, figure: Figure) -> None:
     """Roughness, volume worn up to each cycle and particles of each cycle if there are any, one above the other."""
     cycle, particles = run.dataset["cycle"].values, grouped(run, "particles_over_cycles")
-    found = any(values.any() for _, values in particles)
+    found = any((values > 0).any() for _, values in particles)  # nan: no size is known
     rows = figure.subplots(3 if found else 2, 1, sharex=True)
     sums = [
         (group, np.insert(np.cumsum(values, axis=-1) * 1e18, 0, 0.0, axis=-1))
@@ -113,7 +122,7 @@ def _wear_over_cycles(run: Any, figure: Figure) -> None:
     for axes, (groups, text) in zip(rows, panels, strict=True):
         for number, (group, values) in enumerate(groups):
             colour = matplotlib.colormaps["viridis"](0.85 * number / max(1, len(groups) - 1))
-            shown, places = values.mean(axis=0), cycle
+            shown, places = _mean_of_known(values), cycle
             if shown.size > cycle.size:  # begins before the first cycle
                 places = np.concatenate([[0], cycle])
             axes.plot(places, shown, color=colour, linewidth=1.1, label=group)

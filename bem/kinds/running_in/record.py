@@ -140,7 +140,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
         float | None,
         Figure(
             "per_mm3",
-            f"particles per volume worn from their body in cycles with them, {SETTLED}: one over their mean volume",
+            f"particles per volume worn from their body, {SETTLED}: one over their mean volume",
             headline=True,
             no_bar=pieces.FOLLOWS_CELL,
             optional=True,
@@ -183,7 +183,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     volume_over_cycles: Annotated[
         FloatArray, _over("m^3", "volume worn per cycle, with the cuts of third bodies in both bodies")
     ]
-    particles_over_cycles: Annotated[FloatArray, _over("1", "particles per cycle of one body")]
+    particles_over_cycles: Annotated[FloatArray, _over("1", f"particles per cycle of one body{wearing.STRETCHES}")]
     film_thickness_patch: Annotated[FloatArray, _line("m", "film")]
     film_pressure_patch: Annotated[FloatArray, _line("Pa", "film pressure")]
     separation: Annotated[FloatArray, _line("m", "distance of mean planes")]

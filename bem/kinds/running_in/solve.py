@@ -147,8 +147,8 @@ def _record(
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("film_load", "minimum_film")}
     over["friction_over_cycles"] = rows["total_friction"].copy()
     over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume")}
-    number = over["particles_over_cycles"] = wearing.sizes_over_cycles(scene, result)[1]
-    over |= wearing.particle_rates(scene, result, grid, number)
+    over["particles_over_cycles"] = wearing.sizes_over_cycles(scene, result)[1]
+    over |= wearing.particle_rates(scene, result, grid)
     over |= pieces.mean_radii(worn.late, scene.sizes, *_RADII)
     hot, finds = scene.thermal != "off", scene.wear.finds_particles.needs_strength
     region = wearing.worn_region(scene, strip)[1]
@@ -185,8 +185,8 @@ def _record(
         # the same number as `friction`, which is the sum of its two parts as in the kind `friction`; here it stands
         # beside `friction_initial`
         friction_run_in=figures.friction,
-        particles_first_cycle=float(number[0]) if finds else None,
-        particles_last_cycles=float(number[-averaged:].sum()) if finds else None,
+        particles_first_cycle=wearing.particle_number(scene, result, cycles[:1]) if finds else None,
+        particles_last_cycles=wearing.particle_number(scene, result, cycles[-averaged:]) if finds else None,
         frame=np.array(_frame_cycles(scene.cycles.count)[: len(own["pressure_frames"])]),
         **own,
     )

@@ -86,7 +86,7 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
         float | None, Figure("", "friction coefficient with rolling particles", optional=True, no_bar=THIRD_BODIES)
     ] = None
     radius: Annotated[FloatArray, _over("m", "volume-mean equivalent radius of the particles")]
-    particles: Annotated[FloatArray, _over("1", "particles per cycle of one body")]
+    particles: Annotated[FloatArray, _over("1", f"particles per cycle of one body{wearing.STRETCHES}")]
     volume: Annotated[FloatArray, _over("m^3", "volume worn per cycle, with the cuts of third bodies in both bodies")]
     contact_area: Annotated[FloatArray, _over("m^2", "contact area")]
     plastic_area: Annotated[FloatArray, _over("m^2", "area at the hardness")]

@@ -7,7 +7,8 @@ Read off what a run gives; the rule of drift is `bem.wear.outcome.drift`. Verifi
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -73,7 +74,7 @@ def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[Note]:
         )
     so = f": so {joined(follows)}" if follows else ""
     yield SURFACE_ROUGHENED(
-        of=_of(len(grown), len(before)), before=1e-9 * b, after=1e-9 * a, both=1e-9 * both, holes=holes, so=so
+        of=_of_worst(grown, len(before)), before=1e-9 * b, after=1e-9 * a, both=1e-9 * both, holes=holes, so=so
     )
 
 
@@ -218,7 +219,7 @@ def friction_that_swings_with_the_place(facts: Facts, outcome: Outcome) -> Itera
             initial=initial,
             run_in=run_in,
             averaged=averaged,
-            of=_of(len(found), len(loops)),
+            of=_of_worst(found, len(loops)),
         )
 
 
@@ -237,7 +238,8 @@ def wear_outside_the_contact_region(facts: Facts, outcome: Outcome) -> Iterator[
 
         region = TRACK if wears_on_a_track(facts.scene) else CONTACT
         words = region_words(region, outcome.summary.get("contact_region_width_um")) or "Hertz' contact"
-        yield WEAR_OUTSIDE_REGION(share=max(many), of=_of(len(many), len(shares)), region=words)
+        most = _up_to(map(percent, many))
+        yield WEAR_OUTSIDE_REGION(share=max(many), most=most.capitalize(), of=_of(len(many), len(shares)), region=words)
 
 
 @outcome_check
@@ -257,7 +259,7 @@ def running_in_within_its_error(facts: Facts, outcome: Outcome) -> Iterator[Note
         within = [(e - abs(a - b), b, a, e) for b, a, e in zip(before, after, errors, strict=True) if abs(a - b) < e]
         if within:
             _, b, a, error = max(within)
-            of = _of(len(within), len(before))
+            of = _of_worst(within, len(before))
             yield CHANGE_WITHIN_ERROR(figure=words, before=b, after=a, error=error, of=of)
 
 
@@ -272,34 +274,38 @@ def _errors(outcome: Outcome, name: str, loops: int) -> list[float]:
 def less_than_one_particle(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Warn of less than one particle: worn volume over mean particle volume, by a law of wear, is below one."""
     over = outcome.variables.get("particles_over_cycles", outcome.variables.get("particles"))
-    if not facts.of_kind("wear", "running-in") or over is None or over.dimensions[-1:] != ("cycle",):
+    known = outcome.variables.get("particles_all_cycles")
+    if not facts.of_kind("wear", "running-in") or known is None or over is None or over.dimensions[-1:] != ("cycle",):
         return
-    totals = over.values.reshape(-1, over.values.shape[-1]).sum(axis=-1)
+    totals = np.ravel(np.asarray(known.values, dtype=np.float64))
     few = [float(total) for total in totals if 0 < total < 1]
     if few:
-        window = facts.scene.cycles.settled
-        rates, case = (
-            numbers(outcome.summary.get("particles_per_cycle")),
-            int(np.argmax(np.where(totals < 1, totals, 0))),
-        )
-        last = over.values.reshape(len(totals), -1)[case, -window:]
-        rate = (rates[case] if len(rates) == len(totals) else float(last.mean())) or max(few) / over.values.shape[-1]
+        window, loops = facts.scene.cycles.settled, over.values.reshape(len(totals), -1)
+        case = int(np.argmax(np.where((totals > 0) & (totals < 1), totals, 0)))
+        last = float(loops[case, -window:].mean())  # nan where no particle is found in these cycles
+        rate = last if last > 0 else max(few) / loops.shape[-1]
+        of_last = f"the last {window}" if last > 0 else "all"
         cycles = round(float(f"{_COUNTABLE / rate:.2g}"))
         yield LESS_THAN_A_PARTICLE(
             number=max(few),
+            most=_up_to(f"{one:.2g}" for one in few),
             of=_of(len(few), len(totals)),
             cycles=cycles,
             wanted=_COUNTABLE,
             rate=rate,
-            window=window,
+            window=of_last,
             time=_time_of(facts, cycles),
         )
 
 
 def _time_of(facts: Facts, cycles: int) -> str:
-    """Return the estimated time of so many cycles in words: by the plan of the scene, in proportion to its cycles."""
-    planned = get_kind(facts.scene.kind).plan(facts.scene)
-    return show_seconds(planned.work(machine_rate(get_threads())) * cycles / facts.scene.cycles.count)
+    """Return the estimated time of so many cycles in words, by the plans of all cases."""
+    kind, scenes = get_kind(facts.scene.kind), [facts.scene]
+    for axis in kind.axes(facts.scene):
+        scenes = [axis.pick(one, i) for one in scenes for i in range(len(axis))]
+    rate = machine_rate(get_threads())
+    seconds = math.fsum(kind.plan(one).work(rate) * cycles / one.cycles.count for one in scenes)
+    return show_seconds(seconds * (facts.scene.repetitions or 1))
 
 
 _COUNTABLE = 20
@@ -325,7 +331,9 @@ def _drifting(facts: Facts, outcome: Outcome) -> list[str]:
         found = [drift(series, window) for series, counted in zip(rows, counts, strict=True) if counted]
         still = [value for value in found if value is not None]
         if still:
-            told.append(f"{words} by {percent(max(map(abs, still)))}{_of(len(still), len(rows))}")
+            changes = [percent(abs(change)) for change in still]
+            largest = percent(max(map(abs, still)))
+            told.append(f"{words} by {_up_to(changes)}{largest}{_of(len(still), len(rows))}")
     return told
 
 
@@ -364,7 +372,7 @@ def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[Note
     ]
     grid = facts.cases[0].grid
     if many and grid is not None:
-        of = " in the last cycle" + _of(len(many), len(areas))
+        of = " in the last cycle" + _of_worst([times for times, _ in many], len(areas))
         worst, plane = max(many, key=lambda pair: pair[0])
         yield unresolved_spots(plane > 0, worst, grid.periodic, of)
 
@@ -396,7 +404,7 @@ def worn_beyond_small_slopes(facts: Facts, outcome: Outcome) -> Iterator[Note]:
         level=Level.OUTSIDE_MODEL if largest > STEEP else None,
         depth=max(depths),
         radius=radius,
-        of=_of(sum(slope > LARGEST_SLOPE for slope in slopes), len(slopes)),
+        of=_of_worst([slope for slope in slopes if slope > LARGEST_SLOPE], len(slopes)),
         slope=largest,
         limit=LARGEST_SLOPE,
         reason="worn",
@@ -495,7 +503,7 @@ def long_steps_of_wear_by_pressure(facts: Facts, outcome: Outcome) -> Iterator[N
     long = [(step, depth) for step, depth in zip(steps, depths, strict=False) if step > _STEPS * depth > 0]
     if long:
         step, depth = max(long, key=lambda pair: pair[0] / pair[1])
-        yield WEAR_STEPS_LONG(part=step / depth, depth=1e-9 * depth, of=_of(len(long), len(steps)), reason="error")
+        yield WEAR_STEPS_LONG(part=step / depth, depth=1e-9 * depth, of=_of_worst(long, len(steps)), reason="error")
 
 
 @outcome_check
@@ -549,3 +557,14 @@ def loop_without_error_bars(facts: Facts, outcome: Outcome) -> Iterator[Note]:
 
 def _of(number: int, all_: int) -> str:
     return f" in {number} of {all_} loops" if all_ > 1 else ""
+
+
+def _of_worst(found: Sequence[Any], all_: int) -> str:
+    """Return of how many loops a note is that shows the numbers of the worst one of those `found`."""
+    differ = any(one != found[0] for one in found)
+    return _of(len(found), all_) + (" (numbers of the worst)" if differ else "")
+
+
+def _up_to(shown: Iterable[str]) -> str:
+    """Return "up to " before the largest of some values if they differ as they are shown."""
+    return "up to " if len(set(shown)) > 1 else ""

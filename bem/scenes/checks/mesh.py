@@ -287,9 +287,9 @@ def depths_coarser_than_cells(facts: Facts) -> Iterator[Note]:
 def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[Note]:
     """Below three cells sizes follow the mesh under any criterion (the documentation on wear criteria)."""
     for case in facts.cases:
-        law = None if case.wear is None else case.wear.finds_particles
-        if law is None or case.grid is None:
+        if case.wear is None or case.grid is None:
             continue
+        law = case.wear.finds_particles
         coarse = [law.length(material) for material in case.wearing if not law.resolved(material, case.grid)]
         if coarse:
             from bem.wear.criterion.base import FEWEST_CELLS, resolved_length
@@ -299,6 +299,7 @@ def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[Note]:
             long = [axis for axis, cell in zip("xy", (dx, dy), strict=True) if cell > most]
             yield PARTICLES_OF_MESH(
                 case.label,
+                key="criterion" if law is case.wear.criterion else "particle_criterion",
                 law=law.name,
                 length=min(coarse),
                 cells=min(coarse) / max(dx, dy),

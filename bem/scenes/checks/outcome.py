@@ -439,7 +439,12 @@ def particles_of_one_cell(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     small = [value for value in numbers(radius) if 0 < value < 0.78 * cell]
     if small:
         yield PARTICLES_OF_MESH(
-            cell=1e-9 * cell, few=len(small), all=len(numbers(radius)), radius=1e-9 * min(small), reason="mean"
+            cell=1e-9 * cell,
+            few=len(small),
+            all=len(numbers(radius)),
+            least="smallest " if min(small) < max(small) else "",
+            radius=1e-9 * min(small),
+            reason="mean",
         )
 
 
@@ -489,6 +494,10 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     if not facts.of_kind("wear", "running-in"):
         return
     counts = [math.nan if one is None else one for one in _listed(outcome.summary.get("particles_per_cycle"))]
+    solved = [cut is not None for cut in _listed(outcome.summary.get("truncated_particles"))]
+    if len(solved) == len(counts) and facts.scene.wear.particle_criterion is not None:
+        # something is worn and no particle is found: their number is not known
+        counts = [0.0 if of and math.isnan(one) else one for one, of in zip(counts, solved, strict=True)]
     if len(counts) != len(facts.cases):  # cases that are alike to the checks
         counts = [max((one for one in counts if math.isfinite(one)), default=0.0)] * len(facts.cases)
     turned = outcome.summary.get("friction_first_turn") is not None  # whole turns of the roughness
