@@ -549,8 +549,8 @@ LESS_THAN_A_PARTICLE = define(
     "The run wears less than one particle.",
     "All cycles together shed {most}{number:.2g} particles of one body{of}: an expected number, worn volume over mean"
     " volume of a particle, and no count. Sizes are those of regions that would come off.",
-    "Read the particles per distance and per worn volume. A count of {wanted} would take about {cycles} cycles, about"
-    " {time}, at the rate of {window} cycles, {rate:.2g} a cycle.",
+    "Read numbers of particles as means over many such patches. A count of {wanted} would take about {cycles} cycles,"
+    " about {time}, at the rate of {window} cycles, {rate:.2g} a cycle.",
 )
 WEAR_OUTSIDE_REGION = define(
     "wear-outside-region",

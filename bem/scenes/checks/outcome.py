@@ -551,7 +551,7 @@ def _how_far(case: Case, stress: float) -> str:
         f"The largest stress of a cell{down} in the last cycle is {si(stress, 'Pa')}, and {si(strength, 'Pa')} is "
         "what takes it off."
     )
-    if case.wear is None or case.wear.criterion.name != "maximum_tension":
+    if case.wear is None or case.wear.finds_particles.name != "maximum_tension":
         return said
     return said + (
         " Under pressure alone a line contact has no tension and a round one (1 - 2 nu)/3 of its highest pressure at "
