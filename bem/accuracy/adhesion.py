@@ -52,9 +52,10 @@ def adhesive_bars(
     tolerance : with which the path was solved.
     after : called after each step of the coarser path with the number of steps that are done.
     """
+    given = "load" if "loads" in asked else "approach"
     problem = coarser_problem(case)
     if problem is None:
-        return ErrorBars.unknown(RULES, NoBar.TOO_SMALL)
+        return ErrorBars.unknown(RULES, NoBar.TOO_SMALL, prescribed=[given])
     gap, operator = problem
     try:
         coarse = follow_path(
@@ -69,9 +70,9 @@ def adhesive_bars(
             callback=None if after is None else lambda number, _: after(number + 1),
         )
     except InfeasibleError:
-        return ErrorBars.unknown(RULES, NoBar.IMPOSSIBLE)
+        return ErrorBars.unknown(RULES, NoBar.IMPOSSIBLE, prescribed=[given])
     if coarse.status is not Status.CONVERGED:
-        return ErrorBars.unknown(RULES, NoBar.COARSER_UNSOLVED)
+        return ErrorBars.unknown(RULES, NoBar.COARSER_UNSOLVED, prescribed=[given])
     fine, other = (
         figures_of(one.last.contact, grid.area)
         | {"load": one.last.load, "lowest_load": one.lowest_load, "adhesive_energy": one.last.energy}
@@ -82,12 +83,10 @@ def adhesive_bars(
         grid[name] += missed
     if len(path.load) == 1:  # one state has no lowest load beside its own
         del grid["lowest_load"]
-    given = "load" if "loads" in asked else "approach"
-    grid[given] = 0.0
     left = residual_errors(path.last.residual, fine)
     if given == "approach" and "lowest_load" in grid:
         left["lowest_load"] = left.get("lowest_load", 0.0) + path.lowest_load_error
     parts = {GRID: grid, RESIDUAL: left}
     for errors in parts.values():  # pressure less a constant, the strength of the law
         errors["mean_contact_traction"] = errors["mean_contact_pressure"]
-    return ErrorBars.together(parts)
+    return ErrorBars.together(parts).with_prescribed([given])

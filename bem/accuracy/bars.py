@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -52,6 +52,12 @@ class ErrorBars:
         parts = {origin: {n: v for n, v in part.items() if n != name} for origin, part in self.parts.items()}
         return ErrorBars({**self.values, name: None}, (*self.notes, no_error_bar([name], reason)), parts)
 
+    def with_prescribed(self, names: Collection[str]) -> ErrorBars:
+        """Return the bars with those of prescribed figures, which are inputs without an error: zero in each part."""
+        exact = dict.fromkeys(names, 0.0)
+        parts = {origin: {**part, **exact} for origin, part in self.parts.items()}
+        return ErrorBars({**self.values, **exact}, self.notes, parts)
+
     def renamed(self, names: Mapping[str, str], change: Callable[[Any], Any] = lambda error: error) -> ErrorBars:
         """Return the bars that have a new name, under this name and changed; without the notes."""
 
@@ -61,10 +67,12 @@ class ErrorBars:
         return ErrorBars(new(self.values), (), {origin: new(part) for origin, part in self.parts.items()})
 
     @classmethod
-    def unknown(cls, names: Iterable[str], reason: NoBar, **values: Any) -> ErrorBars:
-        """Return no bars, for a reason; `values` : of its sentence."""
-        missing = dict.fromkeys(names)
-        return cls(missing, (no_error_bar(missing, reason, **values),))
+    def unknown(
+        cls, names: Iterable[str], reason: NoBar, *, prescribed: Collection[str] = (), **values: Any
+    ) -> ErrorBars:
+        """Return no bars, for a reason, but of prescribed figures; `values` : of its sentence."""
+        missing = dict.fromkeys(name for name in names if name not in prescribed)
+        return cls(missing, (no_error_bar(missing, reason, **values),)).with_prescribed(prescribed)
 
 
 def table(

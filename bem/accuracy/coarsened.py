@@ -58,6 +58,11 @@ class ContactCase:
     from_touch: bool = False
 
     @property
+    def prescribed(self) -> tuple[str, ...]:
+        """Names of the figures that were prescribed."""
+        return tuple(name for name in ("load", "approach", "mean_gap") if getattr(self, name) is not None)
+
+    @property
     def grid(self) -> Grid:
         """Grid of the contact."""
         return self.operator.grid

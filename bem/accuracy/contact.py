@@ -109,7 +109,7 @@ def counted_figures(solution: ContactSolution, grid: Grid) -> dict[str, float]:
 def contact_bars(case: ContactCase, coarser: Coarser) -> ErrorBars:
     """Return the error bars of the figures of a contact."""
     if coarser.solution is None or coarser.grid is None:
-        return ErrorBars.unknown(RULES, coarser.why)
+        return ErrorBars.unknown(RULES, coarser.why, prescribed=case.prescribed)
     fine = figures_of(case.solution, case.grid.area)
     coarse = figures_of(coarser.solution, case.grid.area)
     if not all(case.grid.periodic) and not coarser.nested:
@@ -123,10 +123,8 @@ def contact_bars(case: ContactCase, coarser: Coarser) -> ErrorBars:
         grid[name] += missed
     if any(body.material.surface_tension is not None for body in case.operator.bodies):
         _widen_under_tension(grid, case, fine, coarse)
-    # a prescribed figure has no error but that of the residual
-    given = {name for name in ("approach", "mean_gap", "load") if getattr(case, name) is not None}
-    grid |= dict.fromkeys(given, 0.0)
-    if case.hardness is not None and "mean_gap" not in given:
+    grid |= dict.fromkeys(case.prescribed, 0.0)
+    if case.hardness is not None and case.mean_gap is None:
         grid["mean_gap"] += _overlap_error(case, coarser, regime, grid["approach"])
     if case.load is not None and not case.from_touch:
         # the load displaces the mean: the mean gap misses as much as the approach, not a fraction of itself
@@ -136,7 +134,8 @@ def contact_bars(case: ContactCase, coarser: Coarser) -> ErrorBars:
         grid["max_pressure"] = max(case.hardness - fine["max_pressure"], 0.0)
     if fine["plastic_area_fraction"] > grid["plastic_area_fraction"]:  # some of the contact is at the hardness
         grid["max_pressure"] = 0.0
-    bars = ErrorBars.together({GRID: grid, RESIDUAL: _residual_errors(case, fine)})
+    parts = {GRID: grid, RESIDUAL: _residual_errors(case, fine)}
+    bars = ErrorBars.together(parts).with_prescribed(case.prescribed)
     return bars.without("max_pressure", NoBar.SHARP_PRESSURE) if sharp and case.hardness is None else bars
 
 

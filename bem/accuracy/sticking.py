@@ -158,7 +158,7 @@ def sticking_bars(
     residual : the largest of all steps and of the contact.
     fewer : figures on the coarser grid with half the loading steps, or a quarter of a step of rolling earlier; None
         where the load comes at once.
-    given : prescribed figures, which have no error but that of the residual.
+    given : prescribed figures, which have no error.
     limit : friction x load [N], to which the residuals of forces are relative.
     """
     found = {name: value for name, value in fine.items() if name in rules and math.isfinite(value)}
@@ -167,13 +167,12 @@ def sticking_bars(
         for name, least in _held_back(case, fine, coarse, limit).items():
             if name in grid:
                 grid[name] = max(grid[name], least)
-    exact = {name: 0.0 for name in found if name in given}
     sizes = {name: max(abs(value), limit if name in _FORCES else 0.0) for name, value in found.items()}
-    parts = {GRID: grid | exact, RESIDUAL: residual_errors(residual, sizes)}
+    parts = {GRID: grid, RESIDUAL: residual_errors(residual, sizes)}
     if fewer is not None:
         steps = {name: PRESSING_FACTOR * abs(coarse[name] - fewer[name]) for name in found}
-        parts[STEPS if rules is ROLL_RULES else PRESSING] = steps | exact
-    bars = ErrorBars.together(parts)
+        parts[STEPS if rules is ROLL_RULES else PRESSING] = steps
+    bars = ErrorBars.together(parts).with_prescribed([name for name in found if name in given])
     if rules is LIMITED_RULES and cells_across_ring(fine["stick_fraction"], edge_fraction(case)) < 1:
         for name in ("dissipated", "dissipated_in_cycle"):
             bars = bars.without(name, NoBar.NARROW_RING) if name in bars.values else bars

@@ -64,9 +64,10 @@ def relaxed_bars(
     case : of the last contact. solved : what the bars are of. speeds : of steady motion. times, path : of a path in
     time, as arguments of `follow_times`.
     """
+    given = "load" if case.load is not None else "approach"
     problem = coarser_problem(case)
     if problem is None:
-        return ErrorBars.unknown(RULES, NoBar.TOO_SMALL)
+        return ErrorBars.unknown(RULES, NoBar.TOO_SMALL, prescribed=[given])
     gap, operator = problem
     if isinstance(solved, SteadySolution):
         assert speeds is not None
@@ -77,7 +78,7 @@ def relaxed_bars(
         assert path is not None
         other = [_marched(gap, operator, solved.time[::every], times, path) for every in (1, 2)]
     if any(each.status is not Status.CONVERGED for each in other):
-        return ErrorBars.unknown(RULES, NoBar.COARSER_UNSOLVED)
+        return ErrorBars.unknown(RULES, NoBar.COARSER_UNSOLVED, prescribed=[given])
     fine, *coarse = (
         _figures(each, area)
         for each, area in zip((solved, *other), (case.grid.area, *(operator.grid.area for _ in other)), strict=True)
@@ -88,9 +89,7 @@ def relaxed_bars(
     parts = {GRID: grid, RESIDUAL: residual_errors(case.solution.residual, fine)}
     if len(coarse) > 1:
         parts[STEPS] = {name: _HALF_STEPS * abs(coarse[1][name] - coarse[0][name]) for name in grid}
-    for part in parts.values():
-        part["load" if case.load is not None else "approach"] = 0.0
-    return ErrorBars.together(parts)
+    return ErrorBars.together(parts).with_prescribed([given])
 
 
 def _marched(

@@ -162,17 +162,18 @@ def bars(scene: StressedScene, site: Site, found: Found, again: Callable[[Site],
     from bem.accuracy.sticking import sticking_bars
 
     given = scene.contact.prescribed(site.grid.area)
+    prescribed = [name for name in found.given if name in found.figures]
     operator = build.operator_of(scene, site.grid, 0.0)
     case = ContactCase(operator, site.gap, site.contact, **given, from_touch=site.rough)
     coarser = solve_coarser(case, scene.contact.max_iterations)
     if coarser.grid is None or coarser.solution is None:
-        return ErrorBars.unknown(found.figures, coarser.why)
+        return ErrorBars.unknown(found.figures, coarser.why, prescribed=prescribed)
     there = again(site.coarser(coarser.grid, coarser.solution))
     # both under their tractions: where the pressure follows them, that it does is no error
     case, coarser = replace(case, solution=found.contact), replace(coarser, solution=there.contact)
     of_contact = contact_bars(case, coarser).renamed({name: name for name in ("load", "contact_area_fraction")})
     if not there.converged:
-        return ErrorBars.unknown(found.figures, NoBar.COARSER_UNSOLVED) | of_contact
+        return ErrorBars.unknown(found.figures, NoBar.COARSER_UNSOLVED, prescribed=prescribed) | of_contact
     own = sticking_bars(
         found.rules, case, found.figures, there.figures, found.residual, there.fewer, found.given, found.limit
     )

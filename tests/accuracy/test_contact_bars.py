@@ -129,11 +129,24 @@ def test_a_punch_has_no_bar_for_its_highest_pressure():
     assert bars.values["approach"] > 0
 
 
+@pytest.mark.parametrize("given", ["load", "approach", "mean_gap"])
+def test_what_is_prescribed_has_no_error_whatever_the_residual(given):
+    """The residual of an approach was shown as its error bar."""
+    known = ball(32)
+    value = figures_of(known.solution, known.grid.area)[given]
+    case = case_of(known.undeformed, known.grid, **{given: value})
+    case = replace(case, solution=replace(case.solution, residual=1e-4))
+    bars = contact_bars(case, solve_coarser(case))
+    names = {"load", "approach", "mean_gap"}
+    assert {name for name in names if bars.values[name] == 0} == {given}
+    assert {part[given] for part in bars.parts.values()} == {0.0}
+
+
 def test_a_contact_at_a_free_edge_has_no_bars():
     grid = Grid((32, 32), (1e-6, 1e-6))
     case = case_of(np.zeros(grid.shape), grid, load=1.0)
     bars = contact_bars(case, solve_coarser(case))
-    assert set(bars.values.values()) == {None}
+    assert {name for name, value in bars.values.items() if value is not None} == {"load"}
     (note,) = bars.notes
     assert note.values["reason"] == "free-edge"
 
@@ -159,7 +172,7 @@ def test_an_approach_that_other_cells_cannot_meet_has_no_bars():
     coarser = solve_coarser(case)
     assert coarser.solution is None
     bars = contact_bars(case, coarser)
-    assert set(bars.values.values()) == {None}
+    assert {name: value for name, value in bars.values.items() if value is not None} == {"approach": 0.0}
     assert bars.notes[0].values["reason"] == "impossible"
 
 

@@ -67,15 +67,17 @@ def bars_on_curved_rail(scene: RollingContactScene, site: Site, found: CurvedRol
     given = scene.contact.prescribed(site.grid.area)
     case = ContactCase(build.operator_of(scene, site.grid, 0.0), site.gap, site.contact, **given)
     figures = rolled_figures(site, found.rolling, scene.roll.spin)
+    creepages = ("creepage", "creepage_across")
     reason = NoBar.FREE_EDGE if free_edges_reached(site.grid.periodic, site.contact.pressure) else None
     if is_narrow(case):
         reason = NoBar.FEW_CELLS_WIDE
     unknown = (*figures, "lateral_force", "load", "contact_area_fraction")
+    prescribed = [name for name in unknown if name in (*case.prescribed, *creepages)]
     if reason is not None:
-        return ErrorBars.unknown(unknown, reason)
+        return ErrorBars.unknown(unknown, reason, prescribed=prescribed)
     there, coarse = solve_on_curved_rail(scene, half_grid(site.grid), COARSER_TOLERANCE)
     if not coarse.contact.status is coarse.rolling.status is Status.CONVERGED:
-        return ErrorBars.unknown(unknown, NoBar.COARSER_UNSOLVED)
+        return ErrorBars.unknown(unknown, NoBar.COARSER_UNSOLVED, prescribed=prescribed)
     friction = scene.roll.friction
     assert isinstance(friction, float)
     of_contact = contact_bars(case, Coarser(there.grid, there.contact))
@@ -87,7 +89,7 @@ def bars_on_curved_rail(scene: RollingContactScene, site: Site, found: CurvedRol
         rolled_figures(there, coarse.rolling, scene.roll.spin),
         residual,
         None,
-        ("creepage", "creepage_across"),
+        creepages,
         friction * site.contact.load,
     )
     lateral = ErrorBars.together({GRID: {"lateral_force": abs(coarse.lateral_force - found.lateral_force)}})
