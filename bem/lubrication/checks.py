@@ -17,7 +17,7 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.lubrication.inlet_heating import hertz_over_modulus, inlet_heating_factor
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.shear import LimitedShear
+from bem.lubrication.shear import REFERENCE_TEMPERATURE, LimitedShear
 from bem.notes import Level, Note
 from bem.notes.lubrication import (
     FILM_MOLECULAR,
@@ -30,6 +30,7 @@ from bem.notes.lubrication import (
     SHEAR_LIMITED,
     VISCOSITY_EXTRAPOLATED,
 )
+from bem.physical_constants import ZERO_CELSIUS
 
 LARGEST_SHEAR_COEFFICIENT = 0.12
 """Largest limiting shear stress over pressure that was measured; Hoglund and Jacobson (1986), Bair (2007)."""
@@ -60,6 +61,8 @@ load at 0.6 and 0.8 nm)."""
 THINNEST_FILM = 2e-9
 """Film [m] of four or five molecules; oil is layered below about 5 nm, D. Y. C. Chan and R. G. Horn, *J. Chem. Phys.*
 83 (1985) 5311."""
+_PRESSURE = 1e9
+"""Pressure at which the slope of a limit that rises linearly is taken [Pa]."""
 OIL_CONDUCTIVITY = 0.13
 """Thermal conductivity of mineral oil [W/(m K)]."""
 OIL_SOFTENING = 0.04
@@ -76,6 +79,7 @@ class Case:
     position, pressure, thickness : (n,) [m], [Pa], [m]. speeds : of flat and cylinder [m/s]. lubricant : the oil.
     radius : [m]. contact_modulus : [Pa], infinite for rigid bodies. reduction : of the film by its supply.
     hot_stress : mu (u1 - u2)/h at the temperatures of a film with heat (n,) [Pa]; None without heat.
+    temperature : of the oil in a film with heat, its mean weighted by pressure [K]; None without heat.
     not_found : note with the reason why the film was not found; None of a film that was found.
     """
 
@@ -88,6 +92,7 @@ class Case:
     contact_modulus: float
     reduction: float = 1.0
     hot_stress: FloatArray | None = None
+    temperature: float | None = None
     not_found: Note | None = None
 
     @cached_property
@@ -100,11 +105,17 @@ class Case:
         return np.where(self.pressure > 0, stress, 0.0)
 
     @cached_property
+    def limiting_stress(self) -> FloatArray:
+        """Limiting stress at the temperature at which `newtonian_stress` is [Pa]."""
+        temperature = None if self.hot_stress is None else self.temperature
+        return np.broadcast_to(self.lubricant.limiting_stress(self.pressure, temperature), self.pressure.shape)
+
+    @cached_property
     def sliding_stress(self) -> FloatArray:
-        """Stress of the shear law at `newtonian_stress` [Pa]; with heat the stress there, up to the limit of the oil at
-        its supply: beside the middle of a film pressure shears it, too."""
+        """Stress of the shear law at `newtonian_stress` [Pa]; with heat the stress there, up to the limit: beside the
+        middle of a film pressure shears it, too."""
         if self.hot_stress is not None:
-            return np.minimum(self.newtonian_stress, self.lubricant.limiting_stress(self.pressure))
+            return np.minimum(self.newtonian_stress, self.limiting_stress)
         return self.lubricant.shear_stress(self.newtonian_stress, self.pressure)
 
     def integral(self, values: FloatArray) -> float:
@@ -146,20 +157,30 @@ def shear_beyond_measurements(case: Case) -> Note | None:
 
 def shear_at_the_limit(case: Case) -> Note | None:
     """Return a note if the limiting stress decides the friction."""
-    if case.lubricant.shear_law.joins_limit_smoothly:
-        cut = case.sliding_stress > NEAR_THE_LIMIT * case.lubricant.limiting_stress(case.pressure)
+    law = case.lubricant.shear_law
+    if law.joins_limit_smoothly:
+        stress = law.under_limit(law.unlimited(case.newtonian_stress), case.limiting_stress)
+        cut = stress > NEAR_THE_LIMIT * case.limiting_stress
     else:
         cut = case.sliding_stress < case.lubricant.shear_stress(case.newtonian_stress)
     if _load_share(case, cut) < LOAD_AT_THE_LIMIT:
         return None
-    law = case.lubricant.shear_law
-    limit = (
-        f", {law.ambient_shear_strength / 1e6:g} MPa + {law.limiting_shear_coefficient:g} p"
-        + (" at 40 degC," if law.limit_falls_with_temperature else ",")
-        if isinstance(law, LimitedShear)
-        else ""
-    )
-    return SHEAR_LIMITED(limit=limit, reason="friction")
+    return friction_limited(case.lubricant, case.temperature)
+
+
+def friction_limited(oil: Lubricant, temperature: float | None) -> Note:
+    """Return the note that the limiting stress sets the friction, with the limit in a film of an oil at a mean
+    temperature [K]; None for that of the oil."""
+    law = oil.shear_law
+    if not isinstance(law, LimitedShear):
+        return SHEAR_LIMITED(reason="friction-own-law")
+    at = oil.temperature if temperature is None else temperature
+    strength, more = (float(law.limit_at(pressure, at)) for pressure in (0.0, _PRESSURE))
+    slope = (more - strength) / _PRESSURE
+    if not law.limit_falls_with_temperature:
+        return SHEAR_LIMITED(strength=strength, slope=slope, reason="friction")
+    celsius = (REFERENCE_TEMPERATURE if at is None else at) - ZERO_CELSIUS
+    return SHEAR_LIMITED(strength=strength, slope=slope, celsius=celsius, reason="friction-warm")
 
 
 def film_slips(case: Case) -> Note | None:

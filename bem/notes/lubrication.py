@@ -32,7 +32,7 @@ OIL_TOO_THICK = define(
     "oil-too-thick",
     CAUTION,
     "The oil is too thick to flow to a contact.",
-    "Its viscosity is {viscosity:.3g} Pa s; gears starve above {limit:g} Pa s (SAE J306).",
+    "Its viscosity is {viscosity:.3g beside limit} Pa s; gears starve above {limit:g} Pa s (SAE J306).",
     "Take a thinner oil or a higher temperature.",
 )
 OIL_TOO_HOT = define(
@@ -119,15 +119,18 @@ SHEAR_BEYOND_MEASURED = define(
     "high.",
     'Take shear_law = "limited".',
 )
+_MUCH_AT_LIMIT = "in much of the contact; limiting shear stress over pressure of oils is 0.03 to 0.12."
 SHEAR_LIMITED = define(
     "shear-limited",
     INFO,
     "The oil's limiting shear stress sets the friction.",
     reasons={
-        "friction": (
-            "The oil is at that limit{limit} in much of the contact; limiting shear stress over pressure of oils is "
-            "0.03 to 0.12."
+        "friction": f"The oil is at that limit, {{strength:si Pa}} + {{slope:.3g}} p, {_MUCH_AT_LIMIT}",
+        "friction-warm": (
+            "The oil is at that limit, {strength:si Pa} + {slope:.3g} p at the {celsius:.0f} degC of the film, "
+            + _MUCH_AT_LIMIT
         ),
+        "friction-own-law": f"The oil is at that limit {_MUCH_AT_LIMIT}",
         "film": Reason(
             "The oil is at its limiting shear stress in much of the contact, at a slide-to-roll ratio above 1: the "
             "thickness is uncertain by a tenth to a third.",
@@ -227,7 +230,7 @@ BODIES_NOT_RIGID = define(
     CAUTION,
     "Bodies are not rigid under this pressure.",
     "Under {pressure:si Pa} bodies of steel (E* {modulus:si Pa}, Moes' M {moes_load:.2g} and L "
-    "{moes_material:.2g}) would flatten by {flattened:.2g} film thicknesses; the rigid regime ends at "
+    "{moes_material:.2g}) would flatten by {flattened:.2g beside limit} film thicknesses; the rigid regime ends at "
     "{limit:g}.",
     "Give contact_modulus.",
 )
@@ -308,6 +311,10 @@ HEAT_NOT_FOUND = define(
         ),
     },
 )
+_LOADING = (
+    "The thermal loading of the inlet, mu0 beta u^2/k, is {loading:.2g beside limit} (mu0 viscosity at ambient "
+    "pressure, beta its relative fall per kelvin, u entrainment speed, k thermal conductivity of the oil)"
+)
 LUMPED_HEAT_LIMIT = define(
     "lumped-heat-limit",
     CAUTION,
@@ -317,19 +324,16 @@ LUMPED_HEAT_LIMIT = define(
     reasons={
         "formula": "Gupta et al. (1992) did not cover so much load and speed: the film thickness is an estimate.",
         "fast": Reason(
-            "The thermal loading of the inlet, mu0 beta u^2/k, is {loading:.2g} (mu0 viscosity at ambient pressure, "
-            "beta its relative fall per kelvin, u entrainment speed, k thermal conductivity of the oil); it should be "
-            "below {limit:g}. At this loading (1.4 at most was compared) and a slide-to-roll ratio of {nearest:g}, the "
-            "nearest compared, film thickness was {film:+.0f} % off full heat and friction {friction:+.0f} %, over "
-            "light and heavy loads.",
+            f"{_LOADING}; it should be below {{limit:g}}. At this loading (1.4 at most was compared) and a "
+            "slide-to-roll ratio of {nearest:g}, the nearest compared, film thickness was {film:+.0f} % off full heat "
+            "and friction {friction:+.0f} %, over light and heavy loads.",
             headline="Quick heat (lumped) errs: film thickness {film:+.0f} %, friction {friction:+.0f} %.",
         ),
         "fast-slides": Reason(
-            "The thermal loading of the inlet, mu0 beta u^2/k, is {loading:.2g} (mu0 viscosity at ambient pressure, "
-            "beta its relative fall per kelvin, u entrainment speed, k thermal conductivity of the oil), and the "
-            "slide-to-roll ratio {slide:.2g}. At loadings above {limit:g} films were up to a third too thin at a ratio "
-            "of 1, a quarter too thin to a quarter too thick at 1.25 to 1.5, and 1.3 to 2.7 times as thick at 2, where "
-            "the slower surface warms the inlet; friction was 16 % too low to 60 % too high.",
+            f"{_LOADING}, and the slide-to-roll ratio {{slide:.2g}}. At loadings above {{limit:g}} films were up to a "
+            "third too thin at a ratio of 1, a quarter too thin to a quarter too thick at 1.25 to 1.5, and 1.3 to 2.7 "
+            "times as thick at 2, where the slower surface warms the inlet; friction was 16 % too low to 60 % too "
+            "high.",
             headline="Quick heat (lumped) errs here: films too thin or too thick.",
         ),
         "slides": Reason(

@@ -538,7 +538,7 @@ def test_notes_of_one_code_are_told_once_with_those_of_the_first_point():
     molecular = [{"notes": [FILM_MOLECULAR(limit=1e-9 * (i + 1)).as_dict(), "same 2 GPa"]} for i in range(30)]
     points = [*molecular]
     points[3]["notes"] += [FILM_SPIKE(where, remedy="").as_dict() for where in ("load 2 N", "load 20 mN")]
-    points[5]["notes"].append(SHEAR_LIMITED(limit="", reason="friction").as_dict())
+    points[5]["notes"].append(SHEAR_LIMITED(reason="friction-own-law").as_dict())
     points[7]["notes"].append(FILM_THICK(limit=0.02).as_dict())
     points[1] = None
     _tell_notes(points, [f"a = {i}" for i in range(30)], [Path(f"{i}.json") for i in range(30)], told := Telling())

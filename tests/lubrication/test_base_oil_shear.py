@@ -9,6 +9,7 @@ import small_scenes
 
 from bem import Body, InputError, Lubricant, solve_line_film, solve_point_film
 from bem.lubrication import solve_full_thermal_line_film, solve_thermal_line_film
+from bem.lubrication.checks import Case, friction_limited, shear_at_the_limit
 from bem.lubrication.oils import find_oil
 from bem.lubrication.oils.catalogue import bases
 from bem.lubrication.rheology import rheology_of
@@ -207,6 +208,49 @@ def test_heat_across_the_film_finds_the_law_at_its_mean_temperature(rheology):
 def test_a_film_at_the_limit_says_so():
     assert has_code(line(oil(shear_stress_limit=30e6)).notes, SHEAR_LIMITED)
     assert not has_code(line(oil(limiting_shear_coefficient=0.2)).notes, SHEAR_LIMITED)
+
+
+def test_the_note_gives_the_limit_at_the_temperature_of_the_film():
+    """It gave that at 40 degC of an oil at 80."""
+    law = oil().shear_law
+    warm = Lubricant.of("ISO VG 68", temperature=353.15, shear_law="base_oil")
+    fall = math.exp(-40 * law.limiting_shear_softening)
+    for note in (friction_limited(warm, None), friction_limited(oil(), 353.15)):
+        assert note.values["celsius"] == pytest.approx(80, rel=1e-12)
+        assert note.values["strength"] == pytest.approx(fall * law.ambient_shear_strength, rel=1e-12)
+        assert note.values["slope"] == pytest.approx(fall * law.limiting_shear_coefficient, rel=1e-9)
+    assert "at the 80 degC of the film" in note
+    hot = line(oil(), slide=0.5, solve=solve_thermal_line_film, bodies=(STEEL, STEEL))
+    (note,) = (one for one in hot.notes if one.code == SHEAR_LIMITED.code)
+    assert note.values["celsius"] == pytest.approx(hot.mean_film_temperature - 273.15, rel=1e-12)
+    assert note.values["celsius"] > 61
+
+
+@pytest.mark.parametrize(
+    ("temperature", "share", "limited"), [(333.15, 1.2, True), (333.15, 0.9, False), (433.15, 0.9, True)]
+)
+def test_hot_films_are_at_the_limit_by_the_stress_of_the_law_at_the_temperature_of_the_film(
+    temperature, share, limited
+):
+    """Newton's stress was compared with the limit at the temperature of the supply.
+
+    share : of Eyring's stress in the limit at the supply's 60 degC; at 160 degC the limit is 26 % lower.
+    """
+    lubricant, pressure = oil(), np.full(5, 1e9)
+    unit = lubricant.shear_law.shear_stress_limit
+    case = Case(
+        position=np.linspace(-1e-4, 1e-4, 5),
+        pressure=pressure,
+        thickness=np.full(5, 1e-7),
+        speeds=(2.0, 1.0),
+        lubricant=lubricant,
+        radius=1e-2,
+        contact_modulus=MODULUS,
+        hot_stress=unit * np.sinh(share * lubricant.limiting_stress(pressure) / unit),
+        temperature=temperature,
+    )
+    assert (case.hot_stress > lubricant.limiting_stress(pressure)).all()
+    assert (shear_at_the_limit(case) is not None) == limited
 
 
 def test_scenes_name_the_law_and_the_base():

@@ -101,7 +101,7 @@ def test_wall_shear_by_pressure_is_no_friction_beyond_measurements():
         pressure=np.array([1e8, 1e9]),
         hot_stress=np.array([-4e7, 9e7]), newtonian_stress=np.array([4e7, 9e7]),
     )  # fmt: skip
-    limit = hot.lubricant.limiting_stress(hot.pressure)
+    limit = hot.limiting_stress = hot.lubricant.limiting_stress(hot.pressure)
     stress = Case.sliding_stress.func(hot)
     np.testing.assert_allclose(stress, np.minimum(hot.newtonian_stress, limit), rtol=0)
     assert shear_beyond_measurements(SimpleNamespace(**vars(hot), sliding_stress=stress)) is None

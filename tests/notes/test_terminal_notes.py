@@ -10,7 +10,7 @@ from bem.notes.note import LevelledText
 
 pytestmark = pytest.mark.internal
 BEYOND = FRICTION_UNPHYSICAL(friction=3.0, limit=1.0, reason="drag")
-REMARK = SHEAR_LIMITED(limit="", reason="friction")
+REMARK = SHEAR_LIMITED(reason="friction-own-law")
 
 
 def summary(*notes):

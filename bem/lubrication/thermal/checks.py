@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -53,13 +54,15 @@ def notes_of_film(
     radius: float,
     contact_modulus: float,
     stress: FloatArray | None = None,
+    temperature: float | None = None,
     *,
     found: bool,
 ) -> tuple[Note, ...]:
     """Return the notes on a film of the oil as supplied, without those that its heat makes obsolete.
 
-    stress : Newtonian at the nodes (n,) [Pa]; that of the oil at its own temperature by default. found : whether there
-        is a film without heat.
+    stress : Newtonian at the nodes (n,) [Pa]; that of the oil at its own temperature by default. temperature : of the
+        film, its mean weighted by pressure [K]; None or not finite where it was not found. found : whether there is a
+        film without heat.
     """
     state = film.state
     assert isinstance(state, FilmState)
@@ -73,6 +76,7 @@ def notes_of_film(
         radius=radius,
         contact_modulus=contact_modulus,
         hot_stress=stress,
+        temperature=temperature if temperature is not None and math.isfinite(temperature) else None,
         not_found=None if found else why_no_line_film(lubricant, load, radius, contact_modulus),
     )
     return without(notes_on(case), HEAT_LEFT_OUT)

@@ -175,7 +175,15 @@ def full_thermal_film(
         found = replace(found, film=film)
     thermal = _result(found, cold, tolerance, cold_state.reversed)
     stress = found.source.cross_film_flow(found.field.oil).newtonian_stress
-    notes = notes_of_film(found.film, lubricant, case.radius, case.contact_modulus, stress, found=start.converged)
+    notes = notes_of_film(
+        found.film,
+        lubricant,
+        case.radius,
+        case.contact_modulus,
+        stress,
+        thermal.mean_film_temperature,
+        found=start.converged,
+    )
     notes += notes_on_factors(case.flow_factors, found.film.minimum_thickness)
     return replace(thermal, notes=notes + thermal.notes)
 

@@ -162,7 +162,14 @@ def thermal_film(
         thinned.starve(case, supply)
     thermal = _with_temperatures(thinned, lubricant, conductors, cells)
     found = thermal.film.status is Status.CONVERGED
-    notes = notes_of_film(thermal.film, lubricant, case.radius, case.contact_modulus, found=found)
+    notes = notes_of_film(
+        thermal.film,
+        lubricant,
+        case.radius,
+        case.contact_modulus,
+        temperature=thermal.mean_film_temperature,
+        found=found,
+    )
     notes += notes_on_factors(case.flow_factors, thermal.minimum_thickness)
     return replace(thermal, notes=notes + _limits(thermal, lubricant, starved=supply is not None) + thermal.notes)
 

@@ -20,6 +20,7 @@ from bem.errors import Status
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 from bem.heat.line_contact import band_temperatures
+from bem.lubrication.checks import friction_limited
 from bem.lubrication.inlet_heating import InletHeating
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.film import PointFilmSolution
@@ -31,7 +32,7 @@ from bem.lubrication.thermal.lumped_energy import Channel, film_temperatures
 from bem.materials import Body
 from bem.notes import without
 from bem.notes.friction import POINT_FILM_SCALED
-from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT
+from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT, SHEAR_LIMITED
 from bem.threads import one_blas_thread
 
 MOST_THINNED_FILMS = 6
@@ -134,10 +135,14 @@ def add_heat(
     scaled = any(note.code == POINT_FILM_SCALED.code for note in film.notes)  # its thinnest places are not known
     hottest = max(mean if scaled else float(heat.temperature.max()), float(heat.surfaces.max()))
     rise = mean - float(lubricant.temperature or 0.0)
-    notes = without(film.notes, HEAT_LEFT_OUT)
     right = heat.residual <= RESIDUAL and deviation <= FACTOR_TOLERANCE
     status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
     known = 1.0 if status is Status.CONVERGED else math.nan  # as of a line
+    notes = without(film.notes, HEAT_LEFT_OUT)
+    if status is Status.CONVERGED:
+        # the limiting stress is that at the temperature of the film
+        warm = friction_limited(lubricant, mean)
+        notes = tuple(warm if note.code == SHEAR_LIMITED.code else note for note in notes)
     made = replace(
         film,
         middle_stress=known * middle,
