@@ -23,6 +23,9 @@ class AdhesionLaw(Law):
     work: float = parameter("work of adhesion, the integral of the traction over the gap", "J/m^2", above=0)
     range: float = parameter("length over which the attraction acts", "m", above=0)
 
+    beyond_range: ClassVar[str] = "zero once its highest value is below the tolerance times the strength"
+    """What becomes of the attraction at gaps beyond the range, in words."""
+
     @property
     def strength(self) -> float:
         """Return the traction at zero gap [Pa]."""
@@ -47,6 +50,10 @@ class ExponentialAdhesion(AdhesionLaw):
 
     name: ClassVar[str] = "exponential"
     cites: ClassVar[tuple[str, ...]] = ("mueser2017",)
+    beyond_range = (
+        "it falls by a factor of 2.7 with each range of the gap, and is zero once its highest value is below the "
+        "tolerance times the strength"
+    )
 
     def traction(self, gap: FloatArray, grid: Grid) -> FloatArray:
         """Return the traction [Pa] at gaps (nx, ny) [m]."""
@@ -69,6 +76,7 @@ class DugdaleAdhesion(AdhesionLaw):
 
     name: ClassVar[str] = "dugdale"
     cites: ClassVar[tuple[str, ...]] = ("maugis1992",)
+    beyond_range = "zero at gaps beyond its range"
 
     def traction(self, gap: FloatArray, grid: Grid) -> FloatArray:
         """Return the mean traction over each cell [Pa] at gaps (nx, ny) [m], linear within a cell."""

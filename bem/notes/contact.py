@@ -184,8 +184,8 @@ ADHESION_ENDS_APART = define(
     "adhesion-ends-apart",
     CAUTION,
     "The bodies have parted at the end of the path.",
-    "Load (attraction over the gap, zero beyond its range), area, pressures and approach are those of the parted end."
-    " On the path the contact was up to {area:.3g} m^2 large and the lowest load {lowest:si N}.",
+    "Area, pressures, approach and load are those of the parted end. Its load, {load:si N}, is the attraction over the "
+    "gap: {beyond}. On the path the contact was up to {area:.3g} m^2 large and the lowest load {lowest:si N}.",
     "Read the lowest load and the figure of the path, or end the path in contact.",
 )
 PULL_OFF_OF_RANGE = define(

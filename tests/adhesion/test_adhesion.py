@@ -190,3 +190,9 @@ def test_refuses_what_it_cannot_solve():
     with pytest.raises(InputError, match="work"):
         ExponentialAdhesion(-1.0, 1e-9)
     assert solve_adhesive_contact(gap, operator, law, load=-FORCE).status is Status.INFEASIBLE
+
+
+@pytest.mark.parametrize(("law", "ends"), [(DugdaleAdhesion, True), (ExponentialAdhesion, False)])
+def test_words_on_the_attraction_beyond_its_range_are_those_of_the_law(law, ends):
+    found = law(work=0.05, range=1e-8).traction(np.full((2, 2), 3e-8), Grid((2, 2), (1e-6, 1e-6)))
+    assert (found == 0).all() == (law.beyond_range == "zero at gaps beyond its range") == ends

@@ -563,7 +563,11 @@ def test_a_sphere_has_the_limits_of_its_pull_off_force_beside_it():
     assert "lowest_load_pressure" not in outcome.variables
     _, outcome, context = run(ADHESIVE)
     assert outcome.summary["contact_area_m2"] == 0
-    assert has_code(context.notes, ADHESION_ENDS_APART)
+    (apart,) = (note for note in context.notes if note.code == ADHESION_ENDS_APART.code)
+    assert apart.values["load"] == outcome.summary["load_N"] < 0, "an exponential attraction ends at no gap"
+    assert "falls by a factor of 2.7" in apart
+    # the residual of an approach that is prescribed was shown as its error
+    assert outcome.summary["approach_m_error"] == outcome.summary["approach_m_error_residual"] == 0
     lowest = outcome.variables["lowest_load_pressure"].values > 0
     area = np.count_nonzero(lowest) / lowest.size
     least = int(np.argmin(outcome.variables["path_load"].values))

@@ -156,5 +156,6 @@ def adhesion_notes(scene: ContactScene, grid: Grid, path: AdhesiveHistory) -> tu
         elif path.passes_pull_off and forces is not None:
             notes.append(PULL_OFF_OF_RANGE(range=law.range, jkr=forces[0], dmt=forces[1]))
     if ends_apart(path):
-        notes.append(ADHESION_ENDS_APART(lowest=path.lowest_load, area=float(path.contact_area.max())))
+        area, lowest = float(path.contact_area.max()), path.lowest_load
+        notes.append(ADHESION_ENDS_APART(load=path.last.load, beyond=law.beyond_range, lowest=lowest, area=area))
     return tuple(notes)
