@@ -23,6 +23,7 @@ from bem.campaigns.cases import Campaign
 from bem.errors import Status
 from bem.notes import Note, as_note, unpacked
 from bem.notes.accuracy import ACCURACY, named
+from bem.notes.note import told_apart
 from bem.scenes.asked import ALL, ANY, figures_of_chance, relative_error, shortfall, wanted
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Context
@@ -227,7 +228,7 @@ def _unmet(record: Record, scene: SceneModel, levels: Sequence[Level], ratios: M
         assert isinstance(item, Figure)
         error = levels[-1].errors[name]
         if ratio > 1:
-            found = "has no error bar" if math.isinf(error) else f"is known to {percent(error)}"
+            found = "has no error bar" if math.isinf(error) else f"is known to {told_apart(error, error / ratio, '%')}"
             asked = "" if math.isinf(error) else f", {percent(error / ratio)} asked for"
             texts.append(f"{' '.join((item.name or name).split('_'))} {found}{asked}")
     where = f"{'; '.join(texts[:3])}{' and others' if len(texts) > 3 else ''}" if texts else ""

@@ -93,8 +93,8 @@ SLOPES_LARGE = define(
         ),
         "worn": Reason(
             "The bodies are worn {depth:si m} deep at a radius of {radius:si m}{of}: the scar's edge has a slope of"
-            " {slope:.2g}, where half-spaces hold below about {limit:g}, and pressure, depth and width are not those of"
-            " such bodies.",
+            " {slope:.2g beside limit}, where half-spaces hold below about {limit:g}, and pressure, depth and"
+            " width are not those of such bodies.",
             "Take less wear (a shorter wear.criterion.distance, fewer cycles.count), or the volume by load and distance"
             " alone.",
         ),

@@ -186,23 +186,23 @@ BUSH_OVER_LIMIT = define(
     "The bush exceeds a limit.",
     reasons={
         "pv": Reason(
-            "p v is {value:.3g} MPa m/s, {ratio:.2g} times the limit of {limit:.3g} MPa m/s.",
+            "p v is {value:.3g beside limit} MPa m/s, {ratio:.2g beside 1} times the limit of {limit:.3g} MPa m/s.",
             "Lower load or speed, take a larger bush or another material.",
             headline="Pressure times velocity (p v) exceeds its limit.",
         ),
         "temperature": Reason(
-            "It would reach {value:.4g} °C, above {limit:.4g} °C; wear and life do not hold.",
+            "It would reach {value:.4g beside limit} °C, above {limit:.4g} °C; wear and life do not hold.",
             "Lower friction, load or speed, or lead off more heat (heat_balance).",
             headline="The bush becomes too hot: it would soften or melt.",
         ),
         "given": Reason(
-            "It would reach {value:.4g} °C, above {limit:.4g} °C; wear and life do not hold.",
+            "It would reach {value:.4g beside limit} °C, above {limit:.4g} °C; wear and life do not hold.",
             "Lower friction, load or speed, or lead off more heat (heat_balance).",
             headline="The bush becomes too hot: above maximum_temperature.",
         ),
         "yield": Reason(
-            "The peak pressure is {value:.3g} MPa, the yield stress of the bush {limit:.3g} MPa. Polymers creep far "
-            "below.",
+            "The peak pressure is {value:.3g beside limit} MPa, the yield stress of the bush {limit:.3g} MPa. "
+            "Polymers creep far below.",
             "Lower the load, or take a longer or wider bush.",
             headline="The pressure exceeds the yield stress of the bush.",
         ),
@@ -267,7 +267,7 @@ BUSH_LIQUID_LOST = define(
             headline="The water of the liquid evaporates.",
         ),
         "freezes": Reason(
-            "The bush has {bush:.0f} °C, the liquid freezes at {limit:.0f} °C.",
+            "The bush has {bush:.0f beside limit} °C, the liquid freezes at {limit:.0f} °C.",
             "Take a liquid with more glycol, or a warmer bush.",
             headline="The liquid freezes in the bush.",
         ),

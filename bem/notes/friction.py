@@ -7,7 +7,7 @@ OUTSIDE_MODEL, CAUTION, INFO = Level.OUTSIDE_MODEL, Level.CAUTION, Level.INFO
 FRICTION_UNPHYSICAL = define(
     "friction-unphysical",
     OUTSIDE_MODEL,
-    "Friction {friction:.3g} is above any physical bound, about {limit:g}.",
+    "Friction {friction:.3g beside limit} is above any physical bound, about {limit:g}.",
     reasons={
         "shear": "The oil carries more shear stress than pressure: give it a shear law with a limit.",
         "drag": "So small a load does not hold surfaces together against the drag of the oil: raise the load.",
@@ -208,7 +208,7 @@ REPEATED_PATCH = define(
             headline="The contact is wider than the film that is solved.",
         ),
         "pressure": Reason(
-            "The mean pressure is {pressure:si Pa} at most; patches were solved up to {limit:si Pa}.",
+            "The mean pressure is {pressure:si Pa beside limit} at most; patches were solved up to {limit:si Pa}.",
             "Lower the load.",
             headline="The mean pressure exceeds the tabulated pressures of the repeated patch.",
         ),

@@ -14,10 +14,10 @@ SURFACE_HOT = define(
             headline="The surface becomes {rise:.0f} K hotter than its body: no material stands that.",
         ),
         "bulk": Reason(
-            "The bulk temperature of {bulk:.0f} °C is above {limit:.0f} °C: oils and hardened bearing steels do not"
-            " stand it, and the catalogue's thermal constants are those near room temperature.",
+            "The bulk temperature of {bulk:.0f beside limit} °C is above {limit:.0f} °C: oils and hardened bearing"
+            " steels do not stand it, and the catalogue's thermal constants are those near room temperature.",
             "Lower the bulk temperature, or give thermal constants at that temperature.",
-            headline="The bulk temperature, {bulk:.0f} °C, is above {limit:.0f} °C.",
+            headline="The bulk temperature, {bulk:.0f beside limit} °C, is above {limit:.0f} °C.",
         ),
         "transforms": Reason(
             "Aluminium melts at 660 °C and polymers below, so hardness, friction and heat will differ from those"

@@ -7,6 +7,7 @@ know more. Code decides by `code`, `level` and `values`, never by the text. Veri
 
 from __future__ import annotations
 
+import re
 import string
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -65,10 +66,22 @@ class _Formatter(string.Formatter):
 
     `si UNIT` : prefixes from nano to giga. `%` : a share of one. `few` : the first words of a long list.
     `count NOUN` : a whole number with its noun, as "1 point" or "2 points".
+    `.2g beside LIMIT`, `% beside LIMIT`, `si UNIT beside LIMIT` : with the digits that tell the value from its limit,
+    which is the value of that name, or a number.
     """
 
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        """Format with these values, among which limits are."""
+        self._values = values
+
     def format_field(self, value: Any, format_spec: str) -> str:
+        format_spec, _, beside = format_spec.partition(" beside ")
+        limit = self._values.get(beside, beside)
+        if beside and isinstance(value, int | float) and not isinstance(limit, Span):
+            return told_apart(float(value), float(limit), format_spec)
         if isinstance(value, Span):
+            if beside:
+                format_spec = f"{format_spec} beside {beside}"
             low, high = (self.format_field(end, format_spec) for end in value)
             return low if low == high else f"{low} to {high}"
         if isinstance(value, list | tuple):
@@ -90,7 +103,30 @@ class _Formatter(string.Formatter):
         return str(format(value, format_spec))
 
 
-_FORMATTER = _Formatter()
+_PRECISION = re.compile(r"\.(\d+)([gf])")
+"""Format of a number with its digits."""
+_MOST_DIGITS = 12
+"""Digits beyond which a value counts as equal to its limit."""
+
+
+def told_apart(value: float, limit: float, spec: str) -> str:
+    """Return a value in the fewest digits that tell it from a limit, by a format of `_Formatter`: `.2g`, `%`, `si m`.
+
+    A share of 0.3015 in two digits is "30 %", and beside a limit of 0.3 "30.2 %".
+    """
+    for digits in range(_MOST_DIGITS):
+        if (shown := _with_digits(value, spec, digits)) != _with_digits(limit, spec, digits) or value == limit:
+            break
+    return shown
+
+
+def _with_digits(value: float, spec: str, more: int) -> str:
+    """Return a value in so many digits more than a format has."""
+    if spec == "%":
+        return percent(value, 2 + more)
+    if spec.startswith("si "):
+        return si(value, spec.removeprefix("si "), 3 + more)
+    return format(value, _PRECISION.sub(lambda found: f".{int(found[1]) + more}{found[2]}", spec))
 
 
 @dataclass(frozen=True)
@@ -128,7 +164,8 @@ class NoteKind:
         """Return headline, sentence and action with the values filled in."""
         reason = self.reasons[values["reason"]] if self.reasons else Reason(self.sentence)
         templates = (reason.headline or self.headline, reason.sentence, reason.action or self.action)
-        headline, said, action = (_FORMATTER.vformat(template, (), values) for template in templates)
+        formatter = _Formatter(values)
+        headline, said, action = (formatter.vformat(template, (), values) for template in templates)
         return headline, said, action
 
 
@@ -270,9 +307,9 @@ def without(notes: Iterable[Note], *kinds: NoteKind) -> tuple[Note, ...]:
     return tuple(note for note in notes if note.code not in codes)
 
 
-def percent(share: float) -> str:
-    """Return a share of one in per cent: two digits below 100, whole per cents from there on."""
-    return f"{100 * share:.2g} %" if share < 0.995 else f"{100 * share:.0f} %"
+def percent(share: float, digits: int = 2) -> str:
+    """Return a share of one in per cent: two digits below 100, whole per cents from there on; or more digits."""
+    return f"{100 * share:.{digits}g} %" if share < 0.995 else f"{100 * share:.{digits - 2}f} %"
 
 
 def joined(words: list[str]) -> str:

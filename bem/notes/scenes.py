@@ -80,7 +80,7 @@ _FILLED = "Points of the map were filled smoothly from their neighbours."
 _MUCH_FILLED = "{share:%} of the map was filled smoothly from neighbouring points."
 _MAY_BE_ROUGHER = "Instruments lose steep points first, so the real surface may be rougher."
 _OUTLIERS = "The measured map has outliers."
-_SEAMS = "Making the map periodic changed its heights by {share:%} of Sq."
+_SEAMS = "Making the map periodic changed its heights by {share:% beside limit} of Sq."
 MAP_ALTERED = define(
     "map-altered",
     INFO,
@@ -138,8 +138,8 @@ MAP_ALTERED = define(
             headline=_SEAMS,
         ),
         "seams-large": Reason(
-            "The step where its ends meet is spread out (Moisan 2011): {change:si m} rms, {share:%} of its Sq, which "
-            "is then {height:si m}.",
+            "The step where its ends meet is spread out (Moisan 2011): {change:si m} rms, beyond {limit:%} of "
+            "its Sq, which is then {height:si m}.",
             "{action}",
             CAUTION,
             headline=_SEAMS,
@@ -157,7 +157,10 @@ HEIGHT_UNIT_DOUBTFUL = define(
     CAUTION,
     "The heights of the map are unusual: is the height unit right?",
     reasons={
-        "steep": "Its rms slope Sdq is {slope:.3g} and its Sq {height:si m}; real surfaces stay below {limit:g}.",
+        "steep": (
+            "Its rms slope Sdq is {slope:.3g beside limit} and its Sq {height:si m}; real surfaces stay below "
+            "{limit:g}."
+        ),
         "smooth": "Its rms height Sq is {nanometres:.2g} nm; an atom is 0.2 nm wide, and 0.5 nm and more are usual.",
     },
     action="Check the unit: height_unit in a scene, --height-unit of the commands.",

@@ -90,8 +90,8 @@ MICROPITS_EARLY = define(
     "micropits-early",
     OUTSIDE_MODEL,
     "Only the micropitted share is invalid: micropits form too early.",
-    "{share:%} of the surface fails within {cycles:.2g} cycles, by stresses that deform it plastically and so fall in "
-    "later passes; the criterion holds above about {limit:g} cycles, and the built-in scene micropitting-rig gives "
-    "more than 30 % where 1 % was measured (Morales-Espejel and Brizmer 2011).",
+    "{share:%} of the surface fails within {cycles:.2g beside limit} cycles, by stresses that deform it plastically "
+    "and so fall in later passes; the criterion holds above about {limit:g} cycles, and the built-in scene "
+    "micropitting-rig gives more than 30 % where 1 % was measured (Morales-Espejel and Brizmer 2011).",
     "Compare surfaces and loads, not shares; take measured surfaces, and hardness from their material.",
 )

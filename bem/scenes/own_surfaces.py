@@ -15,7 +15,7 @@ from typing import Any
 
 from bem.errors import InputError
 from bem.grid import Grid
-from bem.notes.note import percent
+from bem.notes.note import percent, told_apart
 from bem.quantities import si
 from bem.scenes.common import MeasuredSurface
 from bem.scenes.kind import get_kind
@@ -349,45 +349,60 @@ def _on_a_patch(data: dict[str, Any], found: Mapping[str, MeasuredMap]) -> OwnSt
             cut[body] = lengths
             data[body]["surface"] = {**data[body]["surface"], "crop": _cells(lengths)}
     grid: dict[str, Any] = {"periodic": True}
-    mirror, why = _mirrors(found, cut, Grid(shape, spacing))
+    mirror, changes = _mirrors(found, cut, Grid(shape, spacing))
     for body in found if mirror != "none" else ():
         data[body]["surface"] = {**data[body]["surface"], "mirror": mirror}
     whole = tuple(n * (2 if mirror in (axis, "both") else 1) for axis, n in zip("xy", shape, strict=True))
     if len(found) > 1 or any(one.resampled for one in maps):
         grid |= {"shape": list(whole), "spacing": _cells(spacing)}
-    reasons: dict[tuple[str, ...], str] = {(body, "surface", "mirror"): why for body in found if mirror != "none"}
+    reasons: dict[tuple[str, ...], str] = {
+        (body, "surface", "mirror"): _why_mirrored(changes, body) for body in found if mirror != "none"
+    }
     return OwnStart(data | {"grid": grid}, reasons)
 
 
-def _mirrors(found: Mapping[str, MeasuredMap], cut: Mapping[str, tuple[float, float]], part: Grid) -> tuple[str, str]:
-    """Return the axes along which maps on a part of a grid are mirrored, and why; "none" where seams close well.
+def _mirrors(
+    found: Mapping[str, MeasuredMap], cut: Mapping[str, tuple[float, float]], part: Grid
+) -> tuple[str, dict[str, float]]:
+    """Return the axes along which maps on a part of a grid are mirrored, "none" where seams close well, and by how
+    much closing the seams instead would change the heights of each body's map, over their Sq.
 
     A step where the ends of a map meet is closed by long waves. Beyond `MOST_SEAM_CHANGE` of Sq they are more than a
     tenth of the variance, and the patch is another surface. The mirror image has no step, and the same heights.
     """
     sources = {body: one.source for body, one in found.items() if one.source is not None}
     if len(sources) < len(found) or any(table.mirror != "none" for table in sources.values()):
-        return "none", ""
-    first = ""
+        return "none", {}
+    closed: dict[str, float] = {}
     for mirror in ("none", "x", "y", "both"):
         counts = [n * (2 if mirror in (axis, "both") else 1) for axis, n in zip("xy", part.shape, strict=True)]
         grid = Grid((counts[0], counts[1]), part.spacing, periodic=(True, True))
-        change = 0.0
+        changes = {}
         for body, table in sources.items():
             on_grid = map_on(table.model_copy(update={"mirror": mirror, "crop": cut.get(body, table.crop)}), grid)
-            change = max(change, on_grid.seam_change / (float(on_grid.heights.std()) or math.inf))
-        if mirror == "none":
-            first = _why_mirrored(change)
-        if change <= MOST_SEAM_CHANGE:
+            changes[body] = on_grid.seam_change / (float(on_grid.heights.std()) or math.inf)
+        closed = closed or changes
+        if max(changes.values()) <= MOST_SEAM_CHANGE:
             break
-    return mirror, first
+    return mirror, closed
 
 
-def _why_mirrored(change: float) -> str:
-    """Return why a map is mirrored. change : of the heights by closing the step instead, over their Sq."""
+def _why_mirrored(changes: Mapping[str, float], body: str) -> str:
+    """Return why the map of a body is mirrored: for its own ends, or for those of the other map on the same patch.
+
+    changes : of the heights of each body's map by closing the step instead, over their Sq.
+    """
+    own, other = changes[body] > MOST_SEAM_CHANGE, max(changes, key=lambda name: changes[name])
+    change = told_apart(changes[body if own else other], MOST_SEAM_CHANGE, "%")
+    whose = "this map" if own else f"the map of {other}.surface"
+    why = (
+        f"Chosen because the ends of {whose} do not meet: closing the step would change its heights by {change} of Sq "
+        f"(more than {percent(MOST_SEAM_CHANGE)})."
+    )
+    if own:
+        return why
     return (
-        f"Chosen because the ends of a map do not meet: closing the step would change its heights by {percent(change)} "
-        f"of Sq (more than {percent(MOST_SEAM_CHANGE)})."
+        f"{why} Mirrored maps fill a larger patch, so that this map (change {percent(changes[body])}) is mirrored, too."
     )
 
 
@@ -425,7 +440,7 @@ def _mirrored_where_bent(
             body, wraps = surface.body, [axis for axis, on in zip("xy", surface.grid.periodic, strict=True) if on]
             mirror = "both" if len(wraps) > 1 else wraps[0]
             data = data | {body: {**data[body], "surface": {**data[body]["surface"], "mirror": mirror}}}
-            reasons[body, "surface", "mirror"] = _why_mirrored(change)
+            reasons[body, "surface", "mirror"] = _why_mirrored({body: change}, body)
     return OwnStart(data, reasons)
 
 

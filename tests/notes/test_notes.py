@@ -11,8 +11,17 @@ from bem.notes.accuracy import NoBar, no_error_bar, one_note_per_cause
 from bem.notes.catalogue import known_kinds
 from bem.notes.checks import HARDNESS_DECIDES
 from bem.notes.friction import FRICTION_UNPHYSICAL
-from bem.notes.lubrication import FILM_MOLECULAR, FILM_NOT_FOUND, FILM_SPIKE, FLOW_FACTORS_LIMIT, OIL_CREATED
+from bem.notes.lubrication import (
+    FILM_MOLECULAR,
+    FILM_NOT_FOUND,
+    FILM_SPIKE,
+    FLOW_FACTORS_LIMIT,
+    OIL_CREATED,
+    OIL_TOO_THICK,
+)
 from bem.notes.merge import merge, without_foreseen
+from bem.notes.note import told_apart
+from bem.notes.scenes import MAP_ALTERED
 
 pytestmark = pytest.mark.internal
 
@@ -42,6 +51,23 @@ def test_a_note_is_a_string_with_numbers_in_their_units():
     assert "45 nm" in note
     assert "100 nm" in note
     assert json.loads(json.dumps([note])) == [str(note)]
+
+
+def test_a_value_beside_its_limit_has_the_digits_that_tell_them_apart():
+    """30.16 % beyond 30 % was shown as 30 %."""
+    assert told_apart(0.3016, 0.3, "%") == "30.2 %"
+    assert told_apart(0.29996, 0.3, "%") == "29.996 %"
+    assert told_apart(1.0004, 1.0, "%") == "100.04 %"
+    assert told_apart(0.45, 0.3, "%") == "45 %"
+    assert told_apart(0.3, 0.3, "%") == "30 %"
+    assert told_apart(150.04, 150.0, ".0f") == "150.04"
+    assert told_apart(1.00004e6, 1e6, "si Pa") == "1.00004 MPa"
+    note = MAP_ALTERED(
+        "upper.surface", change=1e-8, share=0.3016, limit=0.3, height=1e-7, action="", reason="seams-large"
+    )
+    assert "its heights by 30.2 % of Sq" in note
+    assert "above 1000 Pa s" in OIL_TOO_THICK(viscosity=Span(1000.4, 2000.0), limit=1000.0)
+    assert "is 1000.4 to 2e+03 Pa s" in OIL_TOO_THICK(viscosity=Span(1000.4, 2000.0), limit=1000.0)
 
 
 def test_what_is_outside_the_model_says_so_first():

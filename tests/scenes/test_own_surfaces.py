@@ -1,6 +1,7 @@
 """First scenes on measured surfaces: they plan without a caution and run to an end inside the model."""
 
 import math
+import re
 import shutil
 from pathlib import Path
 
@@ -296,8 +297,27 @@ def test_a_map_whose_ends_do_not_meet_is_mirrored_along_these_axes_with_the_reas
     assert planned.lower.surface.mirror == "x"
     assert build.grid_of(planned.grid).shape == (192, 130)
     said = " ".join(text.replace("#", "").split())
-    assert "Chosen because the ends of a map do not meet" in said
+    assert "Chosen because the ends of this map do not meet" in said
     assert not seam_notes(scene)
+
+
+def test_the_reason_of_a_mirror_says_whose_ends_do_not_meet(tmp_path):
+    """Of two maps on a patch, both had the larger number of the two."""
+    grid = Grid((96, 96), (0.5e-6, 0.5e-6), periodic=(True, True))
+    maps = [generate_surface(grid, rms_height=20e-9, correlation_length=2e-6, seed=seed) for seed in (1, 2)]
+    maps[1] = maps[1] + 200e-9 * np.linspace(-1, 1, 96)[:, None] ** 3
+    files = {
+        body: _map(tmp_path / f"{body}.npz", heights, grid.spacing)
+        for body, heights in zip(("lower", "upper"), maps, strict=True)
+    }
+    text = scene_template("contact", surfaces=files, folder=tmp_path)
+    lower, upper = (" ".join(part.replace("#", "").split()) for part in text.split("[upper]"))
+    assert "the ends of the map of upper.surface do not meet" in lower
+    assert "the ends of this map do not meet" in upper
+    changes = [re.search(r"change its heights by ([\d.]+) % of Sq", part)[1] for part in (lower, upper)]
+    assert changes[0] == changes[1]
+    assert float(changes[0]) > 30
+    assert float(re.search(r"this map \(change ([\d.]+) %\)", lower)[1]) < 30
 
 
 def test_a_loop_of_wear_mirrors_the_map_that_its_seams_would_bend(tmp_path):

@@ -130,6 +130,7 @@ def seams_that_alter_the_map(facts: Facts) -> Iterator[Note]:
                 where,
                 change=surface.seams,
                 share=surface.seams / height,
+                limit=MOST_SEAM_CHANGE,
                 height=height,
                 action=_instead_of_closing(surface),
                 reason="seams-large",
