@@ -517,7 +517,7 @@ def test_a_figure_that_the_kind_makes_no_bar_of_ends_it_at_once():
 def test_an_error_that_does_not_fall_ends_it():
     found = refine.solve_case(coils(order=0), CoilScene(accuracy=0.01), PlainContext())
     assert found.status == "inaccurate"
-    assert "turns is known to 1e+02 %, 1 % asked for: the error has not fallen in 2 levels" in found.where
+    assert "turns is known to 100 %, 1 % asked for: the error has not fallen in 2 levels" in found.where
     assert len(found.refinement["levels"]) == 3
 
 
