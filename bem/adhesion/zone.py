@@ -48,12 +48,14 @@ def is_resolved(law: AdhesionLaw, modulus: float, grid: Grid) -> bool:
 
 def resolved_range(law: AdhesionLaw, modulus: float, grid: Grid) -> float:
     """Return the shortest range whose adhesive zone the cells resolve at the law's work [m]."""
-    return law.range * math.sqrt(FEWEST_CELLS / cells_in_zone(law, modulus, grid))
+    return math.sqrt(4 * law.work * FEWEST_CELLS * longest_cell(grid) / (math.pi * modulus))
 
 
 def resolving_shape(law: AdhesionLaw, modulus: float, grid: Grid) -> tuple[int, int] | None:
     """Return the fewest cells along x and y that resolve the adhesive zone on the sides of a grid; None if too many."""
     wanted = adhesive_zone(law, modulus) / FEWEST_CELLS
+    if not max(grid.lengths) <= MOST_CELLS * wanted:
+        return None
     nx, ny = (n if n == 1 else math.ceil(length / wanted) for n, length in zip(grid.shape, grid.lengths, strict=True))
     return (nx, ny) if nx * ny <= MOST_CELLS else None
 

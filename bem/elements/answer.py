@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from bem.elements.bearing_life import life_notes, life_rows
+from bem.elements.bearing_life import bearing_life, life_notes, life_rows
 from bem.elements.bush_answer import (
     JOURNAL,
     FilmOfBush,
@@ -438,9 +438,10 @@ def _balance_without_sliding(element: Element, runs: Sequence[Running]) -> Note 
     """Return a note on a heat balance of balls whose films have far less friction than such bearings usually have."""
     model, start = element.model, element.balanced_from
     assert isinstance(model, BearingModel)
-    if not runs or start is None or model.bulk_temperature is None or model.length is not None or model.axial_load:
+    if not runs or start is None or model.bulk_temperature is None or model.length is not None:
         return None
-    films, usual = likely_power(element, runs), usual_ball_moment(model) * model.speed
+    films = likely_power(element, runs)
+    usual = usual_ball_moment(bearing_life(element).rating.load, model.bore) * model.speed
     if usual < _FAR_MORE * films:
         return None
     celsius = start + (model.bulk_temperature - start) * usual / films - ZERO_CELSIUS
@@ -718,11 +719,11 @@ def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str,
             )
         )
     elif isinstance(model, BearingModel):
-        rows.append(("friction moment", _moment(model, power)))
+        rows.append(("friction moment", _moment(element, model, power)))
     return [("friction power", "; ".join(said)), *rows]
 
 
-def _moment(model: BearingModel, power: FrictionPower) -> str:
+def _moment(element: Element, model: BearingModel, power: FrictionPower) -> str:
     """Return the friction moment of a bearing in words: of the films, and what is missing."""
 
     def moment(part: float) -> str:
@@ -735,12 +736,11 @@ def _moment(model: BearingModel, power: FrictionPower) -> str:
         f": {moment(power.film - power.within_contacts)} of rolling, {moment(power.within_contacts)} of sliding within "
         "the curved contacts (Heathcote"
     ) + (" and spin)" if model.axial_load else ")")
-    if model.axial_load:
-        return f"{said}; without cage, churning and seals"
-    usual = plain_digits(1e3 * usual_ball_moment(model), 3)
+    usual = plain_digits(1e3 * usual_ball_moment(bearing_life(element).rating.load, model.bore), 3)
+    load = "P" if model.axial_load else "load"
     return (
-        f"{said}; without cage, churning and seals. The usual estimate of all, {USUAL_BALL_FRICTION:g} x load x bore / "
-        f"2, is {usual} N mm"
+        f"{said}; without cage, churning and seals. The usual estimate of all, {USUAL_BALL_FRICTION:g} x {load} x bore "
+        f"/ 2, is {usual} N mm"
     )
 
 

@@ -112,10 +112,11 @@ class SlicedRollers:
 
     def along(self, roller: int, highest: float) -> tuple[float, ...]:
         """Return the loads per length of a roller's slices [N/m] whose most loaded one would carry `highest` [N] on the
-        whole length: what all its slices carry beside their own load is even along it."""
+        whole length: what they carry beside their own load, such as centrifugal force, is even along the roller."""
         own = self.load_per_length[roller]
         even = highest / self.length - own.max()
-        return tuple(float(one) for one in np.where(own > 0, own + even, 0.0))
+        rounding = 1e-9 * own.max()
+        return tuple(float(one) for one in own + (even if even > rounding else 0.0))
 
 
 def profile_drop(position: FloatArray, diameter: float, length: float) -> FloatArray:

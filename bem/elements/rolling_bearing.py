@@ -39,6 +39,8 @@ from bem.scenes.units import Dimension, Force, Length, Number, Ratio, RotationSp
 _STEEL_DENSITY = 7800.0  # kg/m^3, of elements whose material says none
 USUAL_BALL_FRICTION = 0.0015
 """Friction coefficient of deep groove ball bearings at the bore, at P = C / 10 and well lubricated (catalogues)."""
+_UNLOADED = 1e-9
+"""Load of an element over the highest up to which it carries none: one at 90 degrees does by rounding alone."""
 BALL_POWER = 1.5
 """Exponent of the load of a ball in its compression between both rings (Hertz)."""
 
@@ -234,7 +236,7 @@ class BearingModel(ElementModel):
             contact_angle = float(leaning[number])
             gamma = self.diameter / self.pitch * math.cos(contact_angle)
             rolling = 0.25 * self.speed * self.pitch * (1 - gamma**2)
-            if load == 0:
+            if load <= _UNLOADED * max(shared):
                 continue
             both = []
             for race in _races(self, contact_angle):
@@ -335,7 +337,7 @@ def _load_sharing(model: BearingModel, shared: Sequence[float], pressed_out: flo
     """Return sentences with the figures of the load sharing."""
     highest = max(shared)
     said = [
-        f"{sum(q > 0 for q in shared)} of {model.count} {model.rolling}s carry; the most loaded one "
+        f"{sum(q > _UNLOADED * highest for q in shared)} of {model.count} {model.rolling}s carry; the most loaded one "
         f"{si(highest, 'N', 4)}, {highest * model.count / model.load:.3g} times the radial load over the number of "
         f"{model.rolling}s."
     ]
@@ -366,6 +368,6 @@ def _load_sharing(model: BearingModel, shared: Sequence[float], pressed_out: flo
     return tuple(said)
 
 
-def usual_ball_moment(model: BearingModel) -> float:
-    """Return the friction moment of a ball bearing by the usual estimate [N m]: of its radial load at the bore."""
-    return USUAL_BALL_FRICTION * model.load * 0.5 * model.bore
+def usual_ball_moment(load: float, bore: float) -> float:
+    """Return the friction moment of a ball bearing by the usual estimate [N m], of the equivalent load at the bore."""
+    return USUAL_BALL_FRICTION * load * 0.5 * bore

@@ -45,6 +45,10 @@ def error_per_cycle(compliance: float, contact_modulus: float, wavenumber: float
     return _OF_ONE_POSITION * positions**_BY_POSITIONS * 0.5 * compliance * contact_modulus * wavenumber
 
 
+_LEAST_STEP = 1e-12
+"""Smallest step that is foreseen, over the cycles of the life."""
+
+
 def foreseen_steps(cycles: float, first_step: float, longest: float, tolerance: float, error_rate: float) -> int:
     """Return the number of steps of a life whose errors are `error_rate` times their cycles.
 
@@ -53,7 +57,7 @@ def foreseen_steps(cycles: float, first_step: float, longest: float, tolerance: 
     done, asked, count = 0.0, first_step, 0
     while done < cycles:
         step = whole = min(asked, longest, cycles - done)
-        while error_rate * step > tolerance:
+        while error_rate * step > tolerance and step > _LEAST_STEP * cycles:
             step *= 0.5
         done, count = done + step, count + 1
         trial = next_trial(asked, step, error_rate * step, tolerance, rejected=step < whole)

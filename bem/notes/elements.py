@@ -66,8 +66,8 @@ BALANCE_WITHOUT_SLIDING = define(
     CAUTION,
     "The heat balance has only the friction of the balls' films: with the usual friction moment of such bearings it "
     "gives {celsius:.0f} °C.",
-    "0.0015 x load x bore / 2 is {usual:.3g} W where the films have {films:.3g} W; cage, churning and seals are "
-    "missing.",
+    "0.0015 x P x bore / 2, P the equivalent load, is {usual:.3g} W where the films have {films:.3g} W; cage, churning "
+    "and seals are missing.",
     "Take film and lives as upper bounds, or give bulk_temperature.",
 )
 RATING_NOT_OF_GEOMETRY = define(

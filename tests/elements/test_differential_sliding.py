@@ -184,7 +184,7 @@ def test_the_sliding_is_in_power_flash_and_scatter(bearing):
 def test_oil_films_have_about_half_of_the_usual_friction_moment(bearing):
     """The usual estimate, a mean of measurements, has cage, churning and seals besides."""
     power = friction_power(bearing, run_all(bearing, most=4))
-    assert 0.25 < power.film / bearing.model.speed / usual_ball_moment(bearing.model) < 0.9
+    assert 0.25 < power.film / bearing.model.speed / usual_ball_moment(bearing.model.load, bearing.model.bore) < 0.9
     assert power.within_contacts > power.film - power.within_contacts
     said = dict(answer(bearing, run_all(bearing, most=2)))
     assert "highest flash temperature of sliding within the contact" in said["temperatures"]
