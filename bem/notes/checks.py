@@ -370,7 +370,7 @@ PARTICLES_OF_MESH = define(
     "Sizes and numbers of particles follow the mesh.",
     reasons={
         "criterion": Reason(
-            "The length of wear.{key} {law}, {length:si m}, is {cells:.2g} cells{along}.",
+            "The length of wear.{key} {law}, {length:si m}, is {cells:.2g} cells{along}; {fewest:.2g} are needed.",
             "Take cells of {cell:si m} or less{along}{longer}.",
         ),
         "depths": Reason(

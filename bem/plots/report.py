@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 import os
 import platform
 from collections.abc import Mapping, Sequence
@@ -65,7 +66,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
     rest = [name for name in rest if not is_second_name(name, summary) and not is_counted(name, summary)]
     places = place_tables(summary)
     rest = [name for name in rest if not (places and is_place(name))]
-    scene_text = (run.path / "scene.toml").read_text("utf-8")
+    scene_text, stages = (run.path / "scene.toml").read_text("utf-8"), summary.get("seconds_by_stage", {})
     page = template.render(
         summary=summary,
         scene=run.scene,
@@ -85,7 +86,8 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
         figure_tables=figure_tables(summary, rest),
         origins=origin_table(summary, [*first, *rest]),
         pictures=[(item.kind, *_embedded(item.paths), _animated(item.paths, Path(run.path))) for item in drawn],
-        stages=sorted(summary.get("seconds_by_stage", {}).items(), key=lambda item: -item[1]),
+        stages=sorted(stages.items(), key=lambda item: -item[1]),
+        side_by_side=sum(stages.values()) > _SIDE_BY_SIDE * summary.get("wall_time_s", math.inf),
         scene_text=scene_text,
         date=datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         machine=f"{platform.system()} {platform.machine()}, Python {platform.python_version()}",
@@ -95,6 +97,8 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
     return path
 
 
+_SIDE_BY_SIDE = 1.02
+"""Seconds of all stages over those of the run from which some ran side by side."""
 NO_BAR = "(no error bar)"
 """Words behind a figure whose error is not known; a remark of the run says why."""
 

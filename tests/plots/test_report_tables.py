@@ -429,3 +429,17 @@ def test_figures_of_a_track_are_not_said_to_be_of_the_contact(region, width, wor
 def test_figures_without_a_value_have_no_row():
     summary = {"variant": "", "load_N": 500.0, "film_solves": 0}
     assert [name for name, _ in summary_rows(summary, list(summary))] == ["load", "film solves"]
+
+
+def test_stages_that_ran_side_by_side_are_said_to_be_added_up(tmp_path):
+    """Stages of 46 s stood in a report of a run of 30.6 s."""
+    (tmp_path / "scene.toml").write_text('kind = "friction"\n')
+    pages = []
+    for seconds in (46.0, 30.0):
+        summary = SUMMARY | {
+            "scene": "s", "kind": "friction", "version": "1", "seed": 1, "wall_time_s": 30.6, "status": "converged",
+            "where": "", "notes": [], "outside_model": [], "seconds_by_stage": {"cycles": seconds},
+        }  # fmt: skip
+        run = SimpleNamespace(path=tmp_path, summary=json.loads(json.dumps(summary)), scene={}, dataset=None)
+        pages.append("side by side" in write_report(run, [], ("speed_m_s", "friction")).read_text("utf-8"))
+    assert pages == [True, False]

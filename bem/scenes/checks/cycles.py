@@ -278,6 +278,8 @@ def less_than_one_particle(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     if not facts.of_kind("wear", "running-in") or known is None or over is None or over.dimensions[-1:] != ("cycle",):
         return
     totals = np.ravel(np.asarray(known.values, dtype=np.float64))
+    # sizes change as surfaces wear: stretches of cycles, each with its own mean, may make more than one mean of all
+    totals = np.fmax(totals, np.nansum(over.values.reshape(len(totals), -1), axis=-1))
     few = [float(total) for total in totals if 0 < total < 1]
     if few:
         window, loops = facts.scene.cycles.settled, over.values.reshape(len(totals), -1)
@@ -449,10 +451,10 @@ def particles_and_heights_of_one_of_two(facts: Facts, outcome: Outcome) -> Itera
         yield PARTICLES_OF_BODY(asked=BODIES[named], worn=BODIES[wearing[0]], reason="unworn")
     if len(wearing) < 2:
         return
-    if not pieces:
+    if not pieces and facts.scene.wear.particle_criterion is None:
         yield PARTICLES_OF_BODY(first=BODIES[wearing[0]], particles="", reason="both")
         return
-    listed = outcome.variables.get("particle_volume")
+    listed = outcome.variables.get("particle_volume") if pieces else None
     share = "" if listed is None else f", {percent(float(listed.values.sum() / worn.values.sum()))} of the volume"
     particles = (
         f"; particles, their sizes and numbers are those of the {BODIES[named]} body{share}, and "

@@ -303,6 +303,7 @@ def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[Note]:
                 law=law.name,
                 length=min(coarse),
                 cells=min(coarse) / max(dx, dy),
+                fewest=FEWEST_CELLS,
                 cell=most,
                 along=f" along {long[0]}" if len(long) == 1 else "",
                 longer=f', or {law.length_key} = "{si(wanted, "m")}"' if law.length_key else "",
