@@ -976,7 +976,8 @@ def test_values_that_differ_between_loops_are_told_as_those_of_the_worst():
         values = np.array([(0.13, 0.12, 0.11, 0.1), second])
         series = {"friction_over_cycles": Variable(("speed", "cycle"), values, "1", "friction")}
         assert words in said("drifting_at_the_last_cycle", {}, series, smooth)
-    series = particles_outcome(0.001).variables | {"particles_all_cycles": all_particles([0.8, 0.4])}
+    over = Variable(("speed", "cycle"), np.array([[0.2] * 4, [0.1] * 4]), "1", "particles")
+    series = {"particles_over_cycles": over, "particles_all_cycles": all_particles([0.8, 0.4])}
     assert "shed up to 0.8 particles of one body in 2 of 2 loops" in said("less_than_one_particle", {}, series)
     many = particles_outcome(1.0).variables | {"particles_all_cycles": all_particles([0.8, 0.4])}
     few = OUTCOME_CHECKS["less_than_one_particle"](facts, Outcome({}, many))
