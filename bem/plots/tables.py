@@ -697,7 +697,7 @@ def _column(
 
 
 _SIZES = re.compile(
-    r"particle_(equivalent_radius|length|width|thickness)|(number|area|volume)_mean_\w+|first_cycles_radius"
+    r"particle_(equivalent_radius|length|width|thickness)|(number|area|volume|scattering)_mean_\w+|first_cycles_radius"
 )
 
 
@@ -708,7 +708,7 @@ def is_size_of_no_particles(name: str, value: Any) -> bool:
 
 def is_of_particles(name: str) -> bool:
     """Return True for a mean size or a number of particles."""
-    return _SIZES.match(name) is not None or name.startswith(("particles_", "scattering_mean_"))
+    return _SIZES.match(name) is not None or name.startswith("particles_")
 
 
 def without_bars_of_loop(summary: Mapping[str, Any]) -> frozenset[str]:

@@ -474,6 +474,22 @@ def particle_number(scene: Any, result: RunningIn, cycles: NDArray[np.void]) -> 
     return worn / float(volumes.mean()) if volumes.size else None if worn > 0 else 0.0
 
 
+def all_particles(scene: Any, result: RunningIn) -> float | None:
+    """Return the expected number of reported particles of all cycles beside a wear law.
+
+    It is the sum over the stretches of `sizes_over_cycles`, as sizes change while surfaces wear; a stretch in which no
+    particle is found has the mean volume of all that are. None where something is worn and none is found at all.
+    """
+    number = sizes_over_cycles(scene, result)[1]
+    unknown = np.isnan(number)
+    if not unknown.any():
+        return float(number.sum())
+    volumes = _volumes(scene, result, result.cycles)
+    if not volumes.size:
+        return None
+    return float(np.nansum(number) + _worn_by_law(scene, result, result.cycles[unknown]).sum() / volumes.mean())
+
+
 def _volumes(scene: Any, result: RunningIn, cycles: NDArray[np.void]) -> FloatArray:
     """Return the volumes [m^3] of the reported particles of some cycles."""
     particles = scene.sizes.particles(result)
@@ -585,7 +601,7 @@ class WornSurface:
         figures = {
             "cycle": np.arange(1, len(cycles) + 1),
             "particles_per_cycle": None if number is None else number / len(settled),
-            "particles_all_cycles": particle_number(scene, result, cycles) if beside else None,
+            "particles_all_cycles": all_particles(scene, result) if beside else None,
             "convolutions_per_cycle": float(cycles["convolutions"].mean()),
             "truncated_particles": int(late["truncated"].sum()),
             "step_error": result.step_error,

@@ -51,7 +51,7 @@ def test_the_number_of_particles_is_the_volume_of_the_law_over_their_mean_volume
         mean = volume[(cycle > first) & (cycle <= first + 4)].mean()
         assert number[first : first + 4] == pytest.approx(worn[first : first + 4] / mean, rel=1e-12)
     assert found.summary["particles_per_cycle"] == pytest.approx(worn[-4:].mean() / volume[cycle > 8].mean(), rel=1e-12)
-    assert found.summary["particles_all_cycles"] == pytest.approx(worn.sum() / volume.mean(), rel=1e-12)
+    assert found.summary["particles_all_cycles"] == pytest.approx(number.sum(), rel=1e-12)
 
 
 def loop_with_few_particles(volumes, cycles, settled=3):
@@ -71,6 +71,14 @@ def loop_with_few_particles(volumes, cycles, settled=3):
     scene: Any = SimpleNamespace(wear=wear, sizes=sizes, cycles=SimpleNamespace(settled=settled))
     result: Any = SimpleNamespace(cycles=rows, wearing=(0,))
     return scene, result
+
+
+def test_the_number_of_all_particles_is_the_sum_over_stretches():
+    """Stretches of 1, 3 and 3 cycles, in the first of which none is found: it has the mean volume of all."""
+    scene, found = loop_with_few_particles([2e-18, 4e-18, 6e-18], [3, 6, 7])
+    assert wearing.all_particles(scene, found) == pytest.approx(1 / 4 + 3 / 2 + 3 / 5, rel=1e-12)
+    scene, found = loop_with_few_particles([], [])
+    assert wearing.all_particles(scene, found) is None
 
 
 @pytest.mark.internal

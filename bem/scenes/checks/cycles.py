@@ -74,7 +74,7 @@ def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[Note]:
         )
     so = f": so {joined(follows)}" if follows else ""
     yield SURFACE_ROUGHENED(
-        of=_of_worst(grown, len(before)), before=1e-9 * b, after=1e-9 * a, both=1e-9 * both, holes=holes, so=so
+        of=_of_one(grown, len(before)), before=1e-9 * b, after=1e-9 * a, both=1e-9 * both, holes=holes, so=so
     )
 
 
@@ -219,7 +219,7 @@ def friction_that_swings_with_the_place(facts: Facts, outcome: Outcome) -> Itera
             initial=initial,
             run_in=run_in,
             averaged=averaged,
-            of=_of_worst(found, len(loops)),
+            of=_of_one(found, len(loops)),
         )
 
 
@@ -259,7 +259,7 @@ def running_in_within_its_error(facts: Facts, outcome: Outcome) -> Iterator[Note
         within = [(e - abs(a - b), b, a, e) for b, a, e in zip(before, after, errors, strict=True) if abs(a - b) < e]
         if within:
             _, b, a, error = max(within)
-            of = _of_worst(within, len(before))
+            of = _of_one(within, len(before))
             yield CHANGE_WITHIN_ERROR(figure=words, before=b, after=a, error=error, of=of)
 
 
@@ -278,8 +278,6 @@ def less_than_one_particle(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     if not facts.of_kind("wear", "running-in") or known is None or over is None or over.dimensions[-1:] != ("cycle",):
         return
     totals = np.ravel(np.asarray(known.values, dtype=np.float64))
-    # sizes change as surfaces wear: stretches of cycles, each with its own mean, may make more than one mean of all
-    totals = np.fmax(totals, np.nansum(over.values.reshape(len(totals), -1), axis=-1))
     few = [float(total) for total in totals if 0 < total < 1]
     if few:
         window, loops = facts.scene.cycles.settled, over.values.reshape(len(totals), -1)
@@ -374,7 +372,7 @@ def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[Note
     ]
     grid = facts.cases[0].grid
     if many and grid is not None:
-        of = " in the last cycle" + _of_worst([times for times, _ in many], len(areas))
+        of = " in the last cycle" + _of_one([times for times, _ in many], len(areas))
         worst, plane = max(many, key=lambda pair: pair[0])
         yield unresolved_spots(plane > 0, worst, grid.periodic, of)
 
@@ -406,7 +404,7 @@ def worn_beyond_small_slopes(facts: Facts, outcome: Outcome) -> Iterator[Note]:
         level=Level.OUTSIDE_MODEL if largest > STEEP else None,
         depth=max(depths),
         radius=radius,
-        of=_of_worst([slope for slope in slopes if slope > LARGEST_SLOPE], len(slopes)),
+        of=_of_one([slope for slope in slopes if slope > LARGEST_SLOPE], len(slopes)),
         slope=largest,
         limit=LARGEST_SLOPE,
         reason="worn",
@@ -505,7 +503,7 @@ def long_steps_of_wear_by_pressure(facts: Facts, outcome: Outcome) -> Iterator[N
     long = [(step, depth) for step, depth in zip(steps, depths, strict=False) if step > _STEPS * depth > 0]
     if long:
         step, depth = max(long, key=lambda pair: pair[0] / pair[1])
-        yield WEAR_STEPS_LONG(part=step / depth, depth=1e-9 * depth, of=_of_worst(long, len(steps)), reason="error")
+        yield WEAR_STEPS_LONG(part=step / depth, depth=1e-9 * depth, of=_of_one(long, len(steps)), reason="error")
 
 
 @outcome_check
@@ -561,10 +559,10 @@ def _of(number: int, all_: int) -> str:
     return f" in {number} of {all_} loops" if all_ > 1 else ""
 
 
-def _of_worst(found: Sequence[Any], all_: int) -> str:
-    """Return of how many loops a note is that shows the numbers of the worst one of those `found`."""
+def _of_one(found: Sequence[Any], all_: int) -> str:
+    """Return of how many loops a note is that shows the numbers of one of those `found`."""
     differ = any(one != found[0] for one in found)
-    return _of(len(found), all_) + (" (numbers of the worst)" if differ else "")
+    return _of(len(found), all_) + (" (numbers of one of them)" if differ else "")
 
 
 def _up_to(shown: Iterable[str]) -> str:
