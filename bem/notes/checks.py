@@ -453,8 +453,8 @@ HARDNESS_DECIDES = define(
         ),
         "area-is-load": (
             "{cells:%} of the cells in contact, which carry {load:%} of the load, are at the hardness, {cap:si Pa}, "
-            "without work hardening. The contact area is then load over "
-            "hardness and tells little of the surfaces."
+            "without work hardening. The contact area is then mostly load over hardness and tells little of the "
+            "surfaces."
         ),
         "reached-of-area": (
             "{area:%} of the contact area, which carries {load:%} of the load, is at the hardness, {cap:si Pa}; "
@@ -463,8 +463,9 @@ HARDNESS_DECIDES = define(
         ),
         "area-is-load-of-area": (
             "{area:%} of the contact area, which carries {load:%} of the load, is at the hardness, {cap:si Pa}, "
-            "without work hardening. The contact area is then load over hardness and tells little of the surfaces. "
-            "Counted in cells, which are touched in part at edges, these are {cells:%} with {cells_load:%} of the load."
+            "without work hardening. The contact area is then mostly load over hardness and tells little of the "
+            "surfaces. Counted in cells, which are touched in part at edges, these are {cells:%} with {cells_load:%} "
+            "of the load."
         ),
         "within-error": (
             "Nothing is at the hardness here, {cap:si Pa}, but it lies within the error of the highest pressure: on "
