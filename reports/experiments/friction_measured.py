@@ -19,6 +19,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from bem import Lubricant, solve_line_film
+from bem.elements.answer import friction_power
+from bem.elements.contact import ElementContact
 from bem.elements.element import Element, element_template, load_element
 from bem.elements.running import POINTS, run_contact
 from bem.errors import InputError, Status
@@ -102,24 +104,36 @@ def film_loss(base: str) -> dict[str, Any]:
     """Friction power of the gear mesh without asperities, as `bem element --running` has it [W], its mean coefficient,
     and both scatters from the oil."""
     element = gear_pair(base, GEAR_ROUGHNESS)
-    power = down = up = slid = 0.0
+    runs, scatters = [], []
     for contact in element.found.contacts:
         run = run_contact(element, contact)
         if not run.converged:
             raise ArithmeticError(f"gear pair, {base}: no film at {contact.name}")
-        slide = contact.load * abs(contact.speeds[0] - contact.speeds[1])
-        power, slid = power + run.power, slid + slide
-        if slide > 0:
-            scatter = _place_scatter(element, contact)
-            down, up = down + slide * scatter[0], up + slide * scatter[1]
-    share = element.found.at_once / len(element.found.contacts)
-    return {
-        "power": power * share,
-        "coefficient": power / slid,
-        "down": down / slid,
-        "up": up / slid,
-        "sliding_power": slid * share,
-    }
+        runs.append(run)
+        scatters.append(_place_scatter(element, contact) if contact.slide_roll_ratio else (0.0, 0.0))
+    power, slid = friction_power(element, runs).film, _slid_power(element)
+    down, up = (_mean_over_sliding(element, values) for values in zip(*scatters, strict=True))
+    return {"power": power, "coefficient": power / slid, "down": down, "up": up, "sliding_power": slid}
+
+
+def _slid_power(element: Element) -> float:
+    """Return load times sliding speed of all pairs of teeth in mesh, mean over the path of contact [W]."""
+    found = element.found
+    return found.mean(lambda one: one.load * abs(one.speeds[0] - one.speeds[1])) * found.at_once
+
+
+def _mean_over_sliding(element: Element, values: Sequence[float], places: Sequence[float] | None = None) -> float:
+    """Return the mean of a value over the path of contact, weighted by load times sliding speed.
+
+    values : at the places, by default those of all contacts; linear between them.
+    """
+    found = element.found
+    at = [one.place for one in found.contacts] if places is None else places
+
+    def weighted(one: ElementContact) -> float:
+        return one.load * abs(one.speeds[0] - one.speeds[1]) * float(np.interp(one.place, at, values))
+
+    return found.mean(weighted) * found.at_once / _slid_power(element)
 
 
 def _place_scatter(element: Element, contact: Any) -> tuple[float, float]:
@@ -143,9 +157,8 @@ def mixed_loss(base: str, roughness: float, seeds: tuple[int, int]) -> dict[str,
     from bem.scenes.load import scene_from_table
 
     element = gear_pair(base, roughness)
-    power = slid = touching = down = up = 0.0
+    places, friction, touching, downs, ups = [], [], [], [], []
     for contact in element.found.contacts:
-        slide = contact.load * abs(contact.speeds[0] - contact.speeds[1])
         if abs(contact.slide_roll_ratio) < 1e-3:
             continue
         table = element.scene(contact, "friction")
@@ -161,17 +174,18 @@ def mixed_loss(base: str, roughness: float, seeds: tuple[int, int]) -> dict[str,
         own = solve_setup(setup, lower + upper, scene.speeds.build()[0], None)
         if own.status is not Status.CONVERGED:
             raise ArithmeticError(f"gear pair, {base}: no balance at {contact.name}")
-        film_share = own.film_load / own.load
+        film_share, scatter = own.film_load / own.load, (0.0, 0.0)
         if isinstance(own.film, FilmSolution) and own.film_load > 0:
-            scatter = oil_scatter(own.film, scene.oil.build())
-            down, up = down + slide * film_share * scatter.down, up + slide * film_share * scatter.up
-        power, slid = power + abs(own.friction) * slide, slid + slide
-        touching += (1 - film_share) * slide
+            of_film = oil_scatter(own.film, scene.oil.build())
+            scatter = film_share * of_film.down, film_share * of_film.up
+        places.append(contact.place)
+        friction.append(abs(own.friction))
+        touching.append(1 - film_share)
+        downs.append(scatter[0])
+        ups.append(scatter[1])
     return {
-        "coefficient": power / slid,
-        "touching": touching / slid,
-        "down": down / slid,
-        "up": up / slid,
+        name: _mean_over_sliding(element, values, places)
+        for name, values in (("coefficient", friction), ("touching", touching), ("down", downs), ("up", ups))
     }
 
 

@@ -84,11 +84,14 @@ def test_rows_beyond_the_tests_of_their_formula_are_not_measured(rows):
 
 
 def test_oils_differ_in_gears_as_in_tests(stored):
-    """Mineral oil loses 330 to 560 W; PAO 0.6 to 0.97, ester 0.3 to 1, polyglycol 0.2 to 0.75 of it."""
+    """Mineral oil loses 330 to 560 W; PAO 0.6 to 0.97, ester 0.3 to 1, polyglycol 0.2 to 0.8 of it.
+
+    The more asperities carry (0.51 to 0.64 of the load here), the more alike the oils; Schlenk's formula has 0.74.
+    """
     film, mixed = stored["gears"]["film"], stored["gears"]["mixed"]
     assert 330 < film["mineral"]["sliding_power"] * mixed["mineral"]["coefficient"] < 560
     for losses in (mixed, film):
-        for base, low, high in (("pao", 0.6, 0.97), ("ester", 0.3, 1.0), ("pag", 0.2, 0.75)):
+        for base, low, high in (("pao", 0.6, 0.97), ("ester", 0.3, 1.0), ("pag", 0.2, 0.8)):
             assert low < losses[base]["coefficient"] / losses["mineral"]["coefficient"] < high
     for base, over in stored["gears"]["roughness"].items():
         friction_over_roughness = [over[key] for key in ("150", "250", "350", "500")]
