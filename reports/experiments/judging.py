@@ -149,12 +149,16 @@ def compare_records(
 def judged(rows: Rows) -> dict[str, dict[str, float]]:
     """For each figure: number of bars, share that covers, median of bar over error, number of rows without a bar.
 
-    A figure without error (prescribed or absent) is not counted.
+    A figure without error (prescribed or absent) is not counted; nor is one whose bar is zero, as of what is
+    prescribed, and whose error is rounding beside the largest value of the figure, as of a prescribed force of zero.
     """
     result = {}
     for name in dict.fromkeys(row["figure"] for row in rows):
         own = [row for row in rows if row["figure"] == name]
-        known = [r for r in own if r["bar"] is not None and r["error"] > 1e-7 * abs(r["value"])]
+        largest = max(abs(row["value"]) for row in own)
+        scales = [largest if row["bar"] == 0 else abs(row["value"]) for row in own]
+        judgeable = [row["error"] > 1e-7 * scale for row, scale in zip(own, scales, strict=True)]
+        known = [row for row, counts in zip(own, judgeable, strict=True) if row["bar"] is not None and counts]
         if not known:
             continue
         ratios = [r["bar"] / r["error"] for r in known]
