@@ -45,7 +45,7 @@ from bem.elements.running import notes as film_notes
 from bem.errors import InputError
 from bem.notes import Note
 from bem.notes.elements import (
-    BALANCE_WITHOUT_SLIDING,
+    BALANCE_BELOW_USUAL,
     BUSH_BOUNDS,
     BUSH_CONFORMS,
     BUSH_FLOATS,
@@ -115,9 +115,9 @@ halved that leaves the temperatures of the oil."""
 class FrictionPower:
     """Friction power of an element [W].
 
-    film : of the oil films. within_contacts : of it that of balls which slide within their curved contacts.
-    with_asperities : estimate with asperity contact, which is boundary friction where there is
-    no steady film; None without roughness.
+    film : of the oil films. within_contacts : part of `film` in which balls slide within their curved contacts.
+    with_asperities : estimate with asperity contact, which is boundary friction where there is no steady film; None
+    without roughness.
     down, up : scatter of `film` from the oil's constants; None but with the law of base oils.
     counted : share of the places that have a steady film.
     """
@@ -434,7 +434,7 @@ def film_of_bush(element: Element, runs: Sequence[Running]) -> FilmOfBush | None
     )
 
 
-def _balance_without_sliding(element: Element, runs: Sequence[Running]) -> Note | None:
+def _balance_below_usual(element: Element, runs: Sequence[Running]) -> Note | None:
     """Return a note on a heat balance of balls whose films have far less friction than such bearings usually have."""
     model, start = element.model, element.balanced_from
     assert isinstance(model, BearingModel)
@@ -445,14 +445,14 @@ def _balance_without_sliding(element: Element, runs: Sequence[Running]) -> Note 
     if usual < _FAR_MORE * films:
         return None
     celsius = start + (model.bulk_temperature - start) * usual / films - ZERO_CELSIUS
-    return BALANCE_WITHOUT_SLIDING(celsius=celsius, usual=usual, films=films)
+    return BALANCE_BELOW_USUAL(celsius=celsius, usual=usual, films=films)
 
 
 def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...]:
     """Return notes on limits that the answer exceeds; `solved` as in `answer`."""
     runs = [one for one in solved if one.converged]
     if isinstance(element.model, BearingModel):
-        cold = _balance_without_sliding(element, runs)
+        cold = _balance_below_usual(element, runs)
         return (*([] if cold is None else [cold]), *life_notes(element, least_film_ratio(runs)))
     if not isinstance(element.model, PlainBushModel):
         return ()

@@ -28,8 +28,7 @@ template's ball is 1.4 % too large.
 H. L. Heathcote, *Proc. Inst. Automobile Engineers* 15 (1921) 569; K. L. Johnson, *Contact Mechanics* (1985), 8.5, for
 dry friction; T. A. Harris, *Rolling Bearing Analysis*, for the curvature of the common surface; A. B. Jones, *J. Basic
 Engineering* 81 (1959) 1, for the ring on which the ball spins. The originals but for the second were not read; the
-formulas are derived in this file. Verified in
-tests/elements/test_differential_sliding.py.
+formulas are derived in this file. Verified in tests/elements/test_differential_sliding.py.
 """
 
 from __future__ import annotations
@@ -95,12 +94,12 @@ def ball_sliding(contact: ElementContact, modulus: float, stress: Stress) -> Dif
     along, across = hertz.semi_axes
     common = 1 / (1 / contact.radii[1] - 0.5 / contact.across)
     most = contact.mean_speed * across**2 / (2 * common * contact.radius)
-    edge = np.ones(1) if contact.spin == 0 else np.array([-1.0, 1.0])  # without spin both sides are alike
-    eta = np.concatenate([side * (np.arange(STRIPS) + 0.5) / STRIPS for side in edge])
+    sides = (1,) if contact.spin == 0 else (-1, 1)  # without spin both are alike
+    eta = np.concatenate([side * (np.arange(STRIPS) + 0.5) / STRIPS for side in sides])
     theta = 0.5 * math.pi * (np.arange(POINTS) + 0.5) / POINTS
     height = np.sqrt(1 - eta**2)[:, None]  # half-length of a strip over that of the middle one
     pressure = hertz.maximum_pressure * height * np.cos(theta)
-    width = 2 * across / STRIPS / len(edge)  # of a strip, with its like on the other side
+    width = 2 * across / STRIPS / len(sides)  # of a strip, with its like on the other side
     area = 2 * along * width * height * np.cos(theta) * (0.5 * math.pi / POINTS)  # with its like before the middle
     sideways = np.broadcast_to(contact.spin * along * height * np.sin(theta), pressure.shape)
 
@@ -141,7 +140,9 @@ def spins_on_first(contacts: tuple[ElementContact, ElementContact], modulus: flo
 
     moments = []
     for one in contacts:
-        short, long = sorted(one.hertz(modulus).semi_axes)  # type: ignore[union-attr]
+        hertz = one.hertz(modulus)
+        assert isinstance(hertz, PointContact)
+        short, long = sorted(hertz.semi_axes)
         moments.append(one.load * long * ellipe(1 - (short / long) ** 2))
     return bool(moments[0] <= moments[1])
 

@@ -61,8 +61,8 @@ KAPPA_ABOVE_FILM = define(
         ),
     },
 )
-BALANCE_WITHOUT_SLIDING = define(
-    "balance-without-sliding",
+BALANCE_BELOW_USUAL = define(
+    "balance-below-usual",
     CAUTION,
     "The heat balance has only the friction of the balls' films: with the usual friction moment of such bearings it "
     "gives {celsius:.0f} °C.",

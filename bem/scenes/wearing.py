@@ -550,8 +550,8 @@ class WornRecord(RubbedRecord, ThirdBodyRecord):
         float | None,
         Figure(
             "",
-            "expected number of particles of all cycles, of one body, beside a wear law: worn volume over mean volume "
-            "of the particles found",
+            "expected number of particles of all cycles, of one body, beside a wear law: worn volume over mean "
+            "particle volume, added up over stretches of cycles.settled cycles",
             optional=True,
             no_bar=pieces.FOLLOWS_CELL,
         ),

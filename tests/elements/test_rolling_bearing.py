@@ -278,13 +278,13 @@ def test_a_heat_balance_of_balls_says_what_friction_it_lacks():
     table = BALLS | {"oil": oil, "heat_balance": {"conductance": "1 W/K", "ambient": "25 degC"}}
     element = balance_heat(load_element(table))
     (run,) = run_all(element, most=1)[:1]
-    (note,) = [one for one in answer_notes(element, [run]) if one.code == "balance-without-sliding"]
+    (note,) = [one for one in answer_notes(element, [run]) if one.code == "balance-below-usual"]
     usual = 0.0015 * 4000 * 0.02 * element.model.speed
     assert note.values["usual"] == pytest.approx(usual)
     films = note.values["films"]
     assert note.values["celsius"] == pytest.approx(25 + (element.model.bulk_temperature - 298.15) * usual / films)
     given = load_element(BALLS | {"oil": oil, "bulk_temperature": "70 degC"})
-    assert not any(one.code == "balance-without-sliding" for one in answer_notes(given, run_all(given, most=1)))
+    assert not any(one.code == "balance-below-usual" for one in answer_notes(given, run_all(given, most=1)))
 
 
 def test_every_word_for_an_element_is_known_to_bem_new():
@@ -326,7 +326,7 @@ def test_the_balance_of_an_axial_load_is_compared_with_the_usual_moment_of_its_e
     oil = {"grade": "PAO 4", "temperature": "70 degC", "shear_law": "base_oil"}
     table = BALLS | {"oil": oil, "heat_balance": {"conductance": "1 W/K", "ambient": "25 degC"}}
     element = balance_heat(load_element(table | {"axial_load": "1 kN"}), most=2)
-    (note,) = [one for one in answer_notes(element, run_all(element, most=2)) if one.code == "balance-without-sliding"]
+    (note,) = [one for one in answer_notes(element, run_all(element, most=2)) if one.code == "balance-below-usual"]
     load = bearing_life(element).rating.load
     assert load >= 4000
     assert note.values["usual"] == pytest.approx(0.0015 * load * 0.02 * element.model.speed)

@@ -79,8 +79,10 @@ def oils_at_one_temperature(scene: SceneModel, over: Collection[str]) -> list[No
 
 
 def values_over(scene: SceneModel) -> Values:
-    """As `values_of`, of the scenes at all combinations of the values of `over`, without a radius that a table `bush`
-    confirms."""
+    """Yield the values of the scenes at all combinations of the values of `over`, as `values_of` does.
+
+    A radius that a table `bush` confirms is left out.
+    """
     for own in scenes_over(scene)[:_MOST_SCENES]:
         confirmed = _EQUIVALENT_RADII if getattr(own, "bush", None) is not None else frozenset()
         yield from (found for found in values_of(own) if found[0] not in confirmed)
